@@ -71,12 +71,12 @@ pub struct RequestError {
     pub key: Option<String>,
     /// The reason, which follows the key.
     pub reason: String,
-    /// The way out, in which settings stand in square brackets.
+    /// The hint. Settings in it stand in square brackets.
     pub hint: Option<String>,
 }
 
 impl RequestError {
-    /// A value that its key does not take: the reason, such as `takes A,B, found `3``, and the way out.
+    /// A value that its key does not take. The reason is, for example, `takes A,B, found `3``.
     #[must_use]
     pub fn value(reason: impl Into<String>, hint: impl Into<String>) -> Self {
         Self { key: None, reason: reason.into(), hint: Some(hint.into()) }
@@ -148,10 +148,11 @@ impl From<TextError> for RequestError {
 /// Begins a reason that follows its key without a colon.
 const TAKES: &str = "takes ";
 
-/// Stands between the reason and the way out in messages of serde, which have no place for a way out.
+/// Separates the reason from the hint in messages of serde, which have no field for a hint.
 const WAY_OUT: char = '\u{1f}';
 
-/// The error of serde for a value that cannot be used, from which a [`RequestError`] takes reason and hint.
+/// Makes the error of serde for a value that cannot be used. [`RequestError`] takes reason and hint
+/// from it.
 pub fn refused<E: Error>(error: RequestError) -> E {
     let RequestError { reason, hint, .. } = error;
     E::custom(format_args!("{reason}{WAY_OUT}{}", hint.unwrap_or_default()))

@@ -181,7 +181,7 @@ impl Task {
         Steps { task: self.clone(), stage, done: AtomicU64::new(0), of: of as u64 }
     }
 
-    /// How far the work is.
+    /// How much of the work is done.
     #[must_use]
     pub fn progress(&self) -> Progress {
         self.shared.progress()

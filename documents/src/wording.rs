@@ -279,14 +279,14 @@ mod tests {
 
     #[test]
     fn unknown_and_missing_keys_have_a_way_out() {
-        let told = ParserReason::of("unknown field `wide`, expected `a` or `b`");
-        assert_eq!(told.hint.as_deref(), Some("it takes the keys a, b"));
-        let told = ParserReason::of("unknown variant `rogh`, expected one of `rough`, `smooth`");
-        assert_eq!(told.reason, "unknown word `rogh`");
-        assert_eq!(told.hint.as_deref(), Some("did you mean rough?"));
-        assert_eq!(told.to_string(), "unknown word `rogh`; did you mean rough?");
-        let told = ParserReason::of("missing field `k`");
-        assert_eq!(told.to_string(), "the key `k` is missing; add a line `k` = ...");
+        let parsed = ParserReason::of("unknown field `wide`, expected `a` or `b`");
+        assert_eq!(parsed.hint.as_deref(), Some("it takes the keys a, b"));
+        let parsed = ParserReason::of("unknown variant `rogh`, expected one of `rough`, `smooth`");
+        assert_eq!(parsed.reason, "unknown word `rogh`");
+        assert_eq!(parsed.hint.as_deref(), Some("did you mean rough?"));
+        assert_eq!(parsed.to_string(), "unknown word `rogh`; did you mean rough?");
+        let parsed = ParserReason::of("missing field `k`");
+        assert_eq!(parsed.to_string(), "the key `k` is missing; add a line `k` = ...");
         assert_eq!(ParserReason::of("expected a newline").to_string(), "expected a newline");
     }
 }

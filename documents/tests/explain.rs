@@ -3,7 +3,7 @@
 use documents::hint::{Explain, Fault, Hint};
 
 /// The hint and the fault of an error.
-fn told(error: &dyn Explain) -> (Option<String>, Fault) {
+fn hint_and_fault(error: &dyn Explain) -> (Option<String>, Fault) {
     (error.hint().map(|hint| hint.to_string()), error.fault())
 }
 
@@ -74,7 +74,7 @@ fn texts_have_fields_arguments_and_conditions() {
         (Plain::Expression { advice: Some(Hint::new("[a]")) }, (hint("`a`"), Fault::Setting)),
         (Plain::Nothing, (None, input)),
     ] {
-        assert_eq!(told(&error), wanted, "{error}");
+        assert_eq!(hint_and_fault(&error), wanted, "{error}");
     }
     let names = Plain::Arguments { names: vec!["a".to_owned(), "b".to_owned()] };
     assert_eq!(names.hint(), Some(Hint::new("a or b, or \"a or b\"")));
@@ -138,7 +138,7 @@ fn an_enum_has_defaults_and_a_wrapped_error_its_own() {
         ),
         (WithDefaults::InnerFault(io()), (hint("look at d no storage space"), Fault::Environment)),
     ] {
-        assert_eq!(told(&error), wanted, "{error}");
+        assert_eq!(hint_and_fault(&error), wanted, "{error}");
     }
 }
 
@@ -176,14 +176,20 @@ enum Generic<E: std::error::Error + 'static> {
 #[test]
 fn structs_and_generic_enums_explain_too() {
     let unknown = UnknownShape("fan".to_owned());
-    assert_eq!(told(&unknown), (hint("shapes are round and flat, not fan"), Fault::Setting));
-    assert_eq!(told(&Unit), (None, Fault::Input));
+    assert_eq!(
+        hint_and_fault(&unknown),
+        (hint("shapes are round and flat, not fan"), Fault::Setting)
+    );
+    assert_eq!(hint_and_fault(&Unit), (None, Fault::Input));
     let reason = std::io::Error::from(std::io::ErrorKind::StorageFull);
     let full = "free space on the disk, or choose another";
     let named = Named { path: "a".to_owned(), reason };
-    assert_eq!(told(&named), (hint(full), Fault::Environment));
+    assert_eq!(hint_and_fault(&named), (hint(full), Fault::Environment));
     let wanted = (hint("shapes are round and flat, not fan"), Fault::Setting);
     let boxed = Generic::Boxed(Box::new(UnknownShape("fan".to_owned())));
-    assert_eq!([told(&Generic::Inner(unknown)), told(&boxed)], [wanted.clone(), wanted]);
-    assert_eq!(told(&Generic::<UnknownShape>::Unit(Unit)), (None, Fault::Input));
+    assert_eq!(
+        [hint_and_fault(&Generic::Inner(unknown)), hint_and_fault(&boxed)],
+        [wanted.clone(), wanted]
+    );
+    assert_eq!(hint_and_fault(&Generic::<UnknownShape>::Unit(Unit)), (None, Fault::Input));
 }

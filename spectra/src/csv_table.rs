@@ -59,7 +59,7 @@ impl std::fmt::Display for CellPlace {
 #[derive(Debug)]
 pub struct RowNumbers<'a> {
     bytes: &'a [u8],
-    /// Number of first bytes in which the lines are already counted.
+    /// Number of bytes from the start in which we have counted the lines.
     counted: usize,
     row: u64,
 }

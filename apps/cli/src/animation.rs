@@ -1,5 +1,5 @@
-//! Options and files of an animation: a folder of frames that you can resume, and one file. The
-//! options of a timelapse of a script, and its files, are here too.
+//! Options of animations and timelapses. An animation has a folder of frames, so that you can
+//! resume it, and a file that plays.
 
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
@@ -200,7 +200,7 @@ pub(crate) struct TimelapseOptions {
     /// How long the last frame is shown, in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 2.0, allow_negative_numbers = true)]
     timelapse_hold: f64,
-    /// Show passages that are undone later too
+    /// Also show passages that are undone later
     #[arg(long)]
     timelapse_undone: bool,
 }
@@ -221,8 +221,8 @@ pub(crate) struct TimelapseReport {
 }
 
 impl TimelapseOptions {
-    /// Checks settings and files. Returns `None` if no timelapse is requested. `writes` tells
-    /// whether another output has this file.
+    /// Checks settings and files. Returns `None` if no timelapse is requested. `writes` says
+    /// whether another output of the verb already writes this file.
     pub(crate) fn open(
         &self,
         inputs: &[PathBuf],

@@ -19,7 +19,7 @@ pub(crate) struct Arguments {
     /// Print results, warnings and errors only
     #[arg(short, long, global = true, conflicts_with = "verbose", help_heading = "Messages")]
     quiet: bool,
-    /// Tell also what was chosen, and how long it took
+    /// Also print what was chosen and how long it took
     #[arg(short, long, global = true, help_heading = "Messages")]
     verbose: bool,
     #[command(subcommand)]
@@ -98,8 +98,7 @@ const GROUPS: [(&str, &[&str]); 5] = [
 pub(crate) fn command() -> Command {
     let plain = with_examples(Arguments::command());
     let verbs = grouped(&plain);
-    let more =
-        "`impasto VERB --help` tells all about a verb; docs/guide/index.md lists the guides.";
+    let more = "`impasto VERB --help` explains a verb; docs/guide/index.md lists the guides.";
     plain.help_template(format!(
         "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{verbs}Options:\n{{options}}\n\n{more}\n"
     ))

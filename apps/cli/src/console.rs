@@ -1,7 +1,7 @@
-//! Output of a verb: results, remarks and patches of colour. We also catch lines that graphics
-//! drivers and their libraries print to standard error by themselves, for example "XDG_RUNTIME_DIR
-//! is invalid or not set in the environment", and quote the command line so that you can type it
-//! again.
+//! Where a verb prints: results, remarks and patches of colour. This also keeps standard error
+//! clean of lines that graphics drivers and their libraries print there by themselves, for example
+//! "XDG_RUNTIME_DIR is invalid or not set in the environment", and quotes command lines so that you
+//! can type them again.
 
 use std::io::Write;
 use std::path::Path;
@@ -24,14 +24,14 @@ pub struct Screen {
     pub owns_errors: bool,
 }
 
-/// How much a verb tells beside its results.
+/// How much a verb prints besides its results.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Voice {
     /// Only warnings and errors.
     Quiet,
     #[default]
     Usual,
-    /// Also what was chosen, and how long it took.
+    /// Also prints what was chosen and how long it took.
     Verbose,
 }
 
@@ -90,15 +90,15 @@ impl Console<'_> {
 
     /// Prints one line of remarks.
     pub(crate) fn remark(&mut self, text: impl AsRef<str>) -> Result<()> {
-        self.told(Voice::Usual, text)
+        self.remark_at(Voice::Usual, text)
     }
 
     /// Prints one line that you see only with `--verbose`.
     pub(crate) fn detail(&mut self, text: impl AsRef<str>) -> Result<()> {
-        self.told(Voice::Verbose, text)
+        self.remark_at(Voice::Verbose, text)
     }
 
-    fn told(&mut self, least: Voice, text: impl AsRef<str>) -> Result<()> {
+    fn remark_at(&mut self, least: Voice, text: impl AsRef<str>) -> Result<()> {
         if self.voice >= least {
             writeln!(self.err, "{}", text.as_ref())?;
         }
@@ -117,7 +117,7 @@ impl Console<'_> {
             }
             let least =
                 if remark.kind == RemarkKind::Warning { Voice::Quiet } else { Voice::Usual };
-            self.told(least, line)?;
+            self.remark_at(least, line)?;
         }
         Ok(())
     }
@@ -125,7 +125,7 @@ impl Console<'_> {
     /// Prints warnings, one per line.
     pub(crate) fn warnings(&mut self, warnings: &[String]) -> Result<()> {
         for warning in warnings {
-            self.told(Voice::Quiet, format!("warning: {warning}"))?;
+            self.remark_at(Voice::Quiet, format!("warning: {warning}"))?;
         }
         Ok(())
     }
@@ -165,7 +165,7 @@ mod caught {
     use std::io::{self, Read, Seek};
     use std::os::fd::OwnedFd;
 
-    /// Standard error as it was, put back when dropped.
+    /// The original standard error. Dropping this puts it back.
     struct PutBack(OwnedFd);
 
     impl Drop for PutBack {

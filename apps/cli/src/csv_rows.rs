@@ -1,6 +1,5 @@
-//! Rows of JSON as a table of CSV. You also find here how we write numbers in sentences and tables,
-//! without zeros and signs that say nothing, and a colour as a patch and a code, marked where the
-//! display cannot show it.
+//! Prints rows of JSON as CSV. This file also says how verbs write numbers (without zeros and signs
+//! that say nothing) and colours (as a patch and a code, marked if the display cannot show them).
 
 use serde_json::Value;
 use spectra::color::{Lab, Rgb, RgbSpace};
@@ -91,7 +90,7 @@ pub(crate) fn at_most(value: f64, most: usize) -> String {
     if short == "-0" { "0".to_owned() } else { short.to_owned() }
 }
 
-/// A number with this many decimals. One that rounds to zero has no sign.
+/// Formats a number with this many decimals. A number that rounds to zero gets no minus sign.
 pub(crate) fn rounded(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {

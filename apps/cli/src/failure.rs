@@ -134,29 +134,29 @@ pub(crate) fn with_options(hint: &Hint) -> String {
     })
 }
 
-/// Digits in a row from which a number is written with an exponent.
+/// A number with at least this many digits in a row is written with an exponent.
 const LONG: usize = 20;
 
 /// Gives very long numbers of a message an exponent. For example, 1e300 written out has 301 digits.
 fn short_numbers(message: &str) -> String {
     let is_part = |c: char| c.is_ascii_digit() || c == '.';
-    let mut told = String::new();
+    let mut short = String::new();
     let mut rest = message;
     while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
         let (before, from) = rest.split_at(start);
         let end = from.find(|c| !is_part(c)).unwrap_or(from.len());
         let number = from[..end].trim_end_matches('.');
-        told += before;
+        short += before;
         // Names may hold digits too, such as those of a hash.
         let is_number = !before.ends_with(|c: char| c.is_alphanumeric() || c == '_');
         let is_number = is_number && !from[number.len()..].starts_with(char::is_alphabetic);
         match number.parse::<f64>() {
-            Ok(value) if is_number && number.len() >= LONG => told += &format!("{value:e}"),
-            _ => told += number,
+            Ok(value) if is_number && number.len() >= LONG => short += &format!("{value:e}"),
+            _ => short += number,
         }
         rest = &from[number.len()..];
     }
-    told + rest
+    short + rest
 }
 
 #[cfg(test)]

@@ -64,8 +64,8 @@ pub(crate) fn quietly_chosen(
     Ok(ChosenLibrary { library, path: Some(path) })
 }
 
-/// Reads the library at `path`, or the one that [`VARIABLE`] names if you give no path. Errors of
-/// the second name the variable. Returns `None` if there is neither.
+/// Reads the library at `path`. If you give no path, reads the one that [`VARIABLE`] names, and
+/// errors name the variable too. Returns `None` if there is neither.
 pub(crate) fn named_or_default(path: Option<&Path>) -> Result<Option<(PathBuf, PigmentLibrary)>> {
     let Some(own) = path.map(Path::to_owned).or_else(default_path) else { return Ok(None) };
     let read = PigmentLibrary::open(&own).map_err(Failure::from);

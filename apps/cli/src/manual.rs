@@ -10,7 +10,7 @@ use clap_mangen::roff::{Inline, Roff, bold, roman};
 
 use crate::library_choice::VARIABLE;
 
-/// Exit status of every verb, as docs/guide/command-line.md tells it.
+/// Exit status of every verb, as docs/guide/command-line.md describes it.
 const STATUS: [(&str, &str); 4] = [
     ("0", "Done, also where the reader of a pipe wants no more."),
     ("1", "The data: a file does not hold what is needed, or a check says no."),
@@ -39,11 +39,11 @@ fn collect(command: &Command, pages: &mut Vec<Page>) -> Result<(), (String, io::
     let name = command.get_display_name().unwrap_or(command.get_name()).to_owned();
     let page = page(command, &name).map_err(|error| (name.clone(), error))?;
     pages.push((format!("{name}.1"), page));
-    shown(command).try_for_each(|inner| collect(inner, pages))
+    listed_verbs(command).try_for_each(|inner| collect(inner, pages))
 }
 
 /// Verbs below `command` that have a page.
-fn shown(command: &Command) -> impl Iterator<Item = &Command> {
+fn listed_verbs(command: &Command) -> impl Iterator<Item = &Command> {
     let inner = command.get_subcommands();
     inner.filter(|inner| !inner.is_hide_set() && inner.get_name() != "help")
 }

@@ -1,5 +1,5 @@
-//! Output files. We check them before the slow part of a verb, then write them whole or not at all.
-//! A folder of intermediate stages as PNG is here too.
+//! Output files and folders of output. We check them before the slow part of a verb, and write a
+//! file whole or not at all.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -45,7 +45,7 @@ impl OutputFolder {
         Ok(Self { folder: folder.to_owned(), inputs: inputs.to_vec() })
     }
 
-    /// Tells that it was written.
+    /// Reports that the folder was written.
     pub(crate) fn told(&self, console: &mut Console<'_>) -> Result<()> {
         console.wrote(&self.folder)
     }
@@ -68,8 +68,8 @@ impl OutputFolder {
         create_folder(&self.folder)
     }
 
-    /// Makes the folder and returns outputs of these names. All are opened first, so that nothing
-    /// is written if one cannot be.
+    /// Makes the folder and returns outputs of these names. We open all of them first. If one
+    /// cannot be opened, nothing is written.
     pub(crate) fn outputs(&self, names: impl IntoIterator<Item = String>) -> Result<Vec<Output>> {
         self.make()?;
         names.into_iter().map(|name| self.output(&name)).collect()
@@ -161,7 +161,7 @@ impl Output {
         self.target == other.target
     }
 
-    /// Replaces the file by `content`, or creates it, and tells so.
+    /// Replaces the file by `content`, or creates it, and reports this.
     pub(crate) fn write(self, content: impl AsRef<[u8]>, console: &mut Console<'_>) -> Result<()> {
         if is_stream(&self.path) {
             return console.stream(content.as_ref());
@@ -193,13 +193,13 @@ impl StageFolder {
         Ok(Self(folder))
     }
 
-    /// Outputs of stages of these names, numbered from 1. All are opened first, so that nothing is
-    /// written if one cannot be.
+    /// Outputs for stages of these names, numbered from 1. We open all of them first. If one cannot
+    /// be opened, nothing is written.
     pub(crate) fn outputs<'a>(&self, names: impl Iterator<Item = &'a str>) -> Result<Vec<Output>> {
         self.0.outputs((1..).zip(names).map(|(number, name)| file_name(number, name)))
     }
 
-    /// Tells that the folder was written.
+    /// Reports that the folder was written.
     pub(crate) fn told(&self, console: &mut Console<'_>) -> Result<()> {
         self.0.told(console)
     }

@@ -14,16 +14,16 @@ pub(crate) fn palette(lists: &[String], library: &PigmentLibrary) -> Result<Slot
     Ok(palette_slots(&pigment_names(lists, library), library)?)
 }
 
-/// The names in lists, in which commas separate them. A pigment's own commas do not: see
-/// [`listed`].
+/// Splits lists of pigment names at their commas, but not at a comma inside a name (see
+/// [`listed`]).
 pub(crate) fn pigment_names(lists: &[String], library: &PigmentLibrary) -> Vec<String> {
     let names = lists.iter().flat_map(|list| listed(list, library, |part| part));
     names.map(str::to_owned).collect()
 }
 
-/// The parts of a list, which commas separate. A pigment's own commas do not separate. For example,
-/// `Madder (old, dry)` is one part. We take the longest part in which `name_of` finds a pigment of
-/// the library. Brackets stay together too.
+/// Splits a list at its commas, but not inside a pigment's name. For example, `Madder (old, dry)`
+/// is one part. We take the longest part in which `name_of` finds a pigment of the library. We do
+/// not split inside brackets either.
 pub(crate) fn listed<'t>(
     list: &'t str,
     library: &PigmentLibrary,

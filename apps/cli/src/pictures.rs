@@ -1,6 +1,5 @@
-//! Export options of a painting, and the files that they write. Pictures that are not paintings are
-//! here too, e.g. sheets, pictures with marks, pictures in a map's brushwork, and the options of
-//! the canvas that you paint a picture on.
+//! Options that export a painting, and the files that they write. Other pictures that verbs write
+//! use the functions here too, for example sheets of samples.
 
 use std::path::{Path, PathBuf};
 
@@ -52,8 +51,8 @@ pub(crate) struct Exports {
     /// Bits of a channel of a PNG picture
     #[arg(long, value_enum, default_value = "8", help_heading = "Exports")]
     bits: Bits,
-    /// Pixels of the picture along the width of a cell, 1 to 4: more hide the cells, and light
-    /// falls on the relief between their centres
+    /// Pixels of the picture along the width of a cell, 1 to 4. With 2 or more you no longer see
+    /// the cells, and the relief is lit between their centres too
     #[arg(
         long,
         value_name = "N",
@@ -63,8 +62,9 @@ pub(crate) struct Exports {
     )]
     supersample: u8,
     /// Write the layers for programs that paint in layers: OpenRaster (.ora) of 16 bits, with the
-    /// ground, each dry layer and the wet paint. By normal opacity they show the picture; films
-    /// themselves do not mix by opacity, so other orders and modes are not those of paint
+    /// ground, each dry layer and the wet paint. In this order and with normal opacity they show
+    /// the picture. Real films do not mix by opacity, so another order or mode does not look like
+    /// paint
     #[arg(long, value_name = "FILE", help_heading = "Exports")]
     layers: Option<PathBuf>,
     /// Write a spectral OpenEXR: the reflectance of every cell, without relief and gloss
@@ -142,7 +142,7 @@ impl Exports {
         }
     }
 
-    /// Refuses a file of `--output` if its ending names no kind.
+    /// Refuses a file of `--output` with an ending that we do not know.
     fn check_endings(&self) -> Result<()> {
         let Some(path) = self.output.iter().find(|path| Kind::of(path).is_none()) else {
             return Ok(());

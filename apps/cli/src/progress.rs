@@ -14,8 +14,8 @@ const DELAY: Duration = Duration::from_secs(1);
 /// Time between two pictures of a bar or spinner.
 const TICK: Duration = Duration::from_millis(200);
 
-/// Shows `bar` after one second, unless it is done before or there is no terminal. The returned flag says
-/// that it is done.
+/// Shows `bar` on a terminal after one second. Set the returned flag when the work is done, so that
+/// a bar that has not appeared yet stays away.
 fn shown_late(bar: &ProgressBar, terminal: bool) -> Arc<AtomicBool> {
     let done = Arc::new(AtomicBool::new(!terminal));
     if terminal {
@@ -39,7 +39,8 @@ fn counting() -> ProgressStyle {
         .progress_chars("=> ")
 }
 
-/// Progress bar that counts steps. Shown only on a terminal, after one second, also before its first step.
+/// Progress bar that counts steps. It appears only on a terminal, after one second, even if no step
+/// is done yet.
 pub(crate) struct Progress {
     bar: ProgressBar,
     done: Arc<AtomicBool>,
@@ -61,7 +62,7 @@ impl Progress {
         Task::observed(move |progress| bar.set_position(before as u64 + progress.done))
     }
 
-    /// A task of other steps: the share of them that is done moves the bar.
+    /// A task that counts steps of its own. The bar shows the share of them that is done.
     pub(crate) fn task_of_any_steps(&self) -> Task {
         let bar = self.bar.clone();
         let length = bar.length().unwrap_or(0);
@@ -120,8 +121,8 @@ impl Drop for Waiting {
     }
 }
 
-/// Does long work behind a spinner that becomes a bar once the task counts steps. Shown only on a terminal,
-/// after one second.
+/// Does long work behind a spinner that becomes a bar once the task counts steps. You see it only
+/// on a terminal, after one second.
 pub(crate) fn followed<T>(console: &Console<'_>, work: impl FnOnce(&Task) -> T) -> T {
     let waiting = Waiting::new("", console.shows_progress());
     let bar = waiting.bar.clone();

@@ -1,7 +1,7 @@
-//! Options for measurement files (format, units, references of counts), and reading them. This file
-//! also holds what several verbs share: light, observer and pigment library, the white, dark and
-//! tile that convert the counts of a spectrometer to reflectance, spectra that you name as `FILE`
-//! or `FILE#NAME`, and target colours (for example `#rrggbb`, CIELAB, or measured spectra).
+//! Options that read measurements. For measurement files these are the format, the units and the
+//! references that convert counts to reflectance (white, dark and tile). Several verbs also share
+//! the options for light and observer, spectra that you name as `FILE` or `FILE#NAME`, and target
+//! colours, for example `#rrggbb`, CIELAB, or measured spectra.
 
 use std::path::{Path, PathBuf};
 
@@ -193,7 +193,7 @@ pub(crate) fn library(path: &Path) -> Result<PigmentLibrary> {
     Ok(PigmentLibrary::open(path)?)
 }
 
-/// Whether a file is TOML: by its ending, standard input by what it holds.
+/// Whether a file is TOML. Its ending decides, or the content of standard input.
 pub(crate) fn is_toml(path: &Path) -> bool {
     match is_standard_input(path) {
         true => holds_toml(&documents::file::read(path).unwrap_or_default()),

@@ -39,7 +39,7 @@ impl<T: CommandLine> RequestOptions<T> {
         self.given.get(key).is_some_and(|given| given == text)
     }
 
-    /// Takes the texts of an option out of those that were given.
+    /// Removes an option and returns the texts that were given for it.
     pub(crate) fn take(&mut self, key: &str) -> Vec<String> {
         let texts = match self.given.remove(key) {
             Some(Value::Array(texts)) => texts,
@@ -55,7 +55,7 @@ impl<T: CommandLine> Args for RequestOptions<T> {
         let options: Vec<(Arg, &Key)> = keys.iter().map(|key| (key.option::<T>(), key)).collect();
         let names: BTreeMap<String, String> = options
             .iter()
-            .map(|(option, key)| (format!("`{}`", key.name), shown(option)))
+            .map(|(option, key)| (format!("`{}`", key.name), as_typed(option)))
             .collect();
         let helped = options.into_iter().map(|(option, key)| {
             let mut text = key.help.clone();
@@ -99,7 +99,7 @@ pub(crate) fn without_value_help(option: Arg) -> Arg {
     option.value_parser(PossibleValuesParser::new(names))
 }
 
-/// An option that does not take one of its values.
+/// The option without `left_out`, one of its possible values.
 pub(crate) fn without_value(option: Arg, left_out: &str) -> Arg {
     let mut values = option.get_possible_values();
     values.retain(|value| value.get_name() != left_out);
@@ -111,12 +111,12 @@ fn refusal<T: CommandLine>(error: RequestError) -> Failure {
     let keys = keys::<T>();
     Failure::of_request(&error, |name| {
         let key = keys.iter().find(|key| key.name == name);
-        key.map_or_else(|| name.to_owned(), |key| shown(&key.option::<T>()))
+        key.map_or_else(|| name.to_owned(), |key| as_typed(&key.option::<T>()))
     })
 }
 
-/// An option as it is typed.
-fn shown(option: &Arg) -> String {
+/// The option as a user types it, e.g. `--least-share`.
+fn as_typed(option: &Arg) -> String {
     format!("--{}", option.get_long().unwrap_or_default())
 }
 
@@ -198,7 +198,8 @@ fn kind(schema: &Value) -> Option<Kind> {
     })
 }
 
-/// The schemas of which a value meets one.
+/// The alternatives of a schema, of which a value must meet one. A schema without alternatives is
+/// its only one.
 fn alternatives(schema: &Value) -> Vec<&Value> {
     let of = ["anyOf", "oneOf"].into_iter().filter_map(|key| schema.get(key)?.as_array());
     let inner: Vec<&Value> = of.flatten().flat_map(alternatives).collect();
@@ -250,7 +251,8 @@ impl Key {
         T::adapted(&self.name, option)
     }
 
-    /// The value of the key for the texts that a command gives.
+    /// Converts the texts of an option into the JSON value of its key. A text that is not a number
+    /// stays a text, so that the request can refuse it.
     fn value(&self, texts: Vec<String>) -> Value {
         let whole = |text: &String| text.parse::<u64>().ok().map(Value::from);
         let number = |text: &String| text.parse::<f64>().ok().map(|number| json!(number));
@@ -264,7 +266,7 @@ impl Key {
     }
 }
 
-/// The option with a help of paragraphs, of which `-h` shows the first.
+/// Gives the option a help of several paragraphs, of which `-h` shows only the first.
 fn with_help(option: Arg, text: &str) -> Arg {
     let paragraphs = paragraphs(text);
     let option = option.help(first_paragraph(text));

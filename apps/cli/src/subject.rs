@@ -36,11 +36,11 @@ pub(crate) struct SubjectOptions {
     #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u64).range(LEAST..=MOST))]
     height: Option<u64>,
     /// Camera that shows all of a mesh: degrees around it and above the horizon, and the angle of
-    /// view, such as `30,20,30`; or a file of keyframes (.toml). Of a picture, where its camera
-    /// may move: degrees to the right and upwards
+    /// view, such as `30,20,30`; or a file of keyframes (.toml). For a picture, if its camera may
+    /// move: degrees to the right and upwards
     #[arg(long, value_name = "DEG,DEG[,DEG]|FILE", allow_hyphen_values = true)]
     camera: Option<String>,
-    /// Turn the camera around a mesh in this number of frames; before a picture, where its camera
+    /// Turn the camera around a mesh in this number of frames; in front of a picture, if its camera
     /// may move, it swings
     #[arg(long, value_name = "FRAMES", value_parser = clap::value_parser!(u64).range(1..=100_000))]
     turntable: Option<u64>,
@@ -51,7 +51,7 @@ pub(crate) struct SubjectOptions {
 pub(crate) enum PictureViews {
     /// The whole picture from the front.
     Front,
-    /// Also cameras that options turn.
+    /// From the front, or from where `--camera` and `--turntable` turn the camera.
     Turned,
     /// Any camera, with pictures of any shape.
     Free,
@@ -130,7 +130,7 @@ impl SubjectOptions {
         self.camera.is_some() || self.turntable.is_some()
     }
 
-    /// Shows the subject in its size by the usual camera.
+    /// The subject at the same size, seen by the default camera.
     pub(crate) fn without_camera(&self) -> Self {
         Self { width: self.width, height: self.height, camera: None, turntable: None }
     }
@@ -154,8 +154,8 @@ impl SubjectOptions {
         }
     }
 
-    /// Where cameras stand that turn a picture, in degrees to the right and upwards from straight
-    /// before it: one, or those of a swing around that place.
+    /// Positions of the cameras of a picture, in degrees to the right and upwards from straight
+    /// before it: one position, or those of a swing around it.
     pub(crate) fn picture_turns(&self) -> Result<Vec<[f32; 2]>> {
         Ok(picture_turns(self.picture_camera()?, self.turntable))
     }
@@ -228,7 +228,8 @@ impl SubjectOptions {
     }
 }
 
-/// Whether a file is a mesh: by its ending, standard input if it begins like no picture.
+/// Whether a file is a mesh. Its ending decides. Standard input is a mesh if it does not begin like
+/// a picture.
 fn is_mesh(path: &Path) -> Result<bool> {
     if is_standard_input(path) {
         return Ok(!begins_like_picture(&read(path)?));
@@ -237,9 +238,9 @@ fn is_mesh(path: &Path) -> Result<bool> {
     Ok(matches!(ending.as_deref(), Some("obj" | "gltf" | "glb" | "ply")))
 }
 
-/// Degrees to the right and upwards of the cameras before a picture: `way`, or as many as `frames`
-/// of a swing around that place. Without a `way` it is straight before it, and a swing is a small
-/// one.
+/// Degrees to the right and upwards of the cameras before a picture: `way` alone, or as many as
+/// `frames` on a swing around it. Without a `way`, the camera is straight before the picture, and a
+/// swing is small.
 pub(crate) fn picture_turns(way: Option<[f32; 2]>, frames: Option<u64>) -> Vec<[f32; 2]> {
     let Some(frames) = frames else { return vec![way.unwrap_or_default()] };
     let [right, up] = way.unwrap_or([SWING_DEG, SWING_DEG / 2.0]);

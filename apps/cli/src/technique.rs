@@ -1,5 +1,5 @@
-//! Techniques of painting as verbs use them: the options of their settings, and the work of their
-//! painters behind a bar.
+//! What all verbs of painting share: the options for presets and settings of a technique, and
+//! painting behind a progress bar.
 
 use std::path::{Path, PathBuf};
 
@@ -135,7 +135,7 @@ pub(crate) fn prepared<T: Technique>(
     followed(console, |task| T::prepare(subject, settings, task))
 }
 
-/// Paints a subject as it is seen.
+/// Paints a subject in one view, behind a spinner or bar.
 pub(crate) fn painted<T: Technique>(
     painter: &mut T,
     view: T::View<'_>,

@@ -1,4 +1,4 @@
-//! The built program told to end: it leaves no half-written file, and ends by the signal.
+//! Sends signals to the built program: it leaves no half-written file, and ends by the signal.
 
 #![cfg(unix)]
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
@@ -82,9 +82,9 @@ fn a_run_that_ends_before_its_first_write_makes_no_folder() {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    // It tells what it read, checks its folder, then refits and draws for a while.
-    let mut told = BufReader::new(child.stderr.take().unwrap());
-    told.read_line(&mut String::new()).unwrap();
+    // It prints what it read, checks its folder, then refits and draws for a while.
+    let mut messages = BufReader::new(child.stderr.take().unwrap());
+    messages.read_line(&mut String::new()).unwrap();
     std::thread::sleep(Duration::from_millis(50));
     send(&child, "TERM");
     assert_eq!(child.wait().unwrap().signal(), Some(15), "it ended before");
@@ -102,8 +102,8 @@ fn a_shell_sees_128_and_the_number() {
          while ! [ -e '{}' ]; do sleep 0.01; done; kill -TERM $child; wait $child; echo $?",
         file.display()
     );
-    let told = Command::new("sh").args(["-c", &line]).output().unwrap();
-    assert_eq!(String::from_utf8_lossy(&told.stdout).trim(), "143");
+    let output = Command::new("sh").args(["-c", &line]).output().unwrap();
+    assert_eq!(String::from_utf8_lossy(&output.stdout).trim(), "143");
 }
 
 #[cfg(target_os = "linux")]

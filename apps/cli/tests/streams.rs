@@ -107,8 +107,8 @@ fn standard_input_is_a_model_a_photograph_or_toml() {
     for wrong in [&b"no model\n"[..], b""] {
         let refused = piped(&[&["watercolor", "-"], &small[..]].concat(), wrong);
         assert_eq!(refused.status.code(), Some(1), "{}", text(&refused.stderr));
-        let told = text(&refused.stderr);
-        assert!(told.contains("error: -: ") && told.contains(".ply"), "{told}");
+        let message = text(&refused.stderr);
+        assert!(message.contains("error: -: ") && message.contains(".ply"), "{message}");
     }
 }
 
@@ -137,12 +137,12 @@ fn the_environment_names_the_default_library() {
     }
     let missing = mix(Some(Path::new("no-such.json")));
     assert_eq!(missing.status.code(), Some(2));
-    let told = text(&missing.stderr);
+    let message = text(&missing.stderr);
     assert!(
-        told.starts_with("error: the default library, which IMPASTO_LIBRARY names\n"),
-        "{told}"
+        message.starts_with("error: the default library, which IMPASTO_LIBRARY names\n"),
+        "{message}"
     );
-    assert!(told.contains("no-such.json: cannot be read"), "{told}");
+    assert!(message.contains("no-such.json: cannot be read"), "{message}");
     let named = Command::new(env!("CARGO_BIN_EXE_impasto"))
         .args(["quadrature", "own-missing.json"])
         .env("IMPASTO_LIBRARY", &library)

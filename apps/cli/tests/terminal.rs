@@ -26,15 +26,15 @@ fn slow(folder: &Path) -> String {
 /// `script` of util-linux makes the terminal.
 fn seen(line: &str) -> String {
     let line = format!("impasto() {{ '{}' \"$@\"; }}; {line}", env!("CARGO_BIN_EXE_impasto"));
-    let told = Command::new("script")
+    let output = Command::new("script")
         .args(["--quiet", "--return", "--command", &line, "/dev/null"])
         .env("SHELL", "/bin/sh")
         .env("TERM", "xterm")
         .env_remove("NO_COLOR")
         .output()
         .unwrap();
-    let text = String::from_utf8_lossy(&told.stdout).into_owned();
-    assert!(told.status.success(), "{text}");
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success(), "{text}");
     text
 }
 

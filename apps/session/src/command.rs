@@ -78,7 +78,7 @@ pub enum Command {
         surface: SurfaceId,
         /// Name of the brush.
         brush: String,
-        /// To how many decimals the samples of the stroke are rounded.
+        /// Number of decimals to which the samples of the stroke are rounded.
         decimals: SampleDecimals,
     },
     /// Sets the head of a brush down as a tool that works the wet paint. Samples follow and are

@@ -14,7 +14,7 @@ use web_time::Instant;
 
 use super::command::{Command, PenSample};
 use super::event::{Event, KeptPainting, Picked, PickedLayer, Snapshot};
-use super::meter::tally;
+use super::meter::stroke_message;
 use super::outbox::{is_lifted, waiting_substeps};
 use super::report::WorkerStatus;
 use super::state::PaintingState;
@@ -115,7 +115,7 @@ impl WorkerLoop<'_> {
             if let (Some(report), false) = (report, tool.is_paint()) {
                 // In a replay this message would come after every stroke.
                 if self.playing.is_none() {
-                    let (text, hint) = tally(tool, &report.taken, session.canvas());
+                    let (text, hint) = stroke_message(tool, &report.taken, session.canvas());
                     (self.send)(Event::Message { text, hint, failed: false });
                 }
                 open.reporter.tool_ended(&brush);
@@ -228,7 +228,7 @@ impl WorkerLoop<'_> {
         }
     }
 
-    /// Undoes or repeats a whole group of strokes, if the action would do that to one of them.
+    /// If the action would undo or repeat one stroke of a group, does this for the whole group.
     fn step_over_group(&mut self, action: &Action) -> Result<Option<Outcome>, PaintingError> {
         let OpenPainting { prepared, groups, .. } = self.open_mut();
         let session = &mut prepared.session;

@@ -88,7 +88,7 @@ impl Meter {
 
 /// Message after a stroke of `tool` that took `taken`, with advice or the parts of the paint in
 /// mm3. The pigments of `canvas` are in the slots of both surfaces.
-pub(super) fn tally(
+pub(super) fn stroke_message(
     tool: StrokeTool,
     taken: &TakenPaint,
     canvas: &Painting,

@@ -147,13 +147,13 @@ impl WorkerLoop<'_> {
             files => format!("; {files} files that it saves were not written"),
         };
         let count = playing.count();
-        let told = match ending {
+        let remark = match ending {
             Ending::Played => Some((format!("the recording was played, {count}"), GO_ON)),
             Ending::Stopped => Some((format!("the recording was stopped after {count}"), STAYS)),
             // The user has seen the reason already.
             Ending::Refused => None,
         };
-        if let Some((text, hint)) = told {
+        if let Some((text, hint)) = remark {
             self.send_message(format!("{text}{unwritten}"), Some(Hint::new(hint)), false);
         }
         self.state_stale = true;
@@ -254,7 +254,10 @@ mod tests {
                 other => panic!("no message: {other:?}"),
             }
         }
-        assert!(message(first).0.contains("pulled out") && message(first).1, "the loss is told");
+        assert!(
+            message(first).0.contains("pulled out") && message(first).1,
+            "the loss is reported"
+        );
         assert!(message(last).0.contains("processor") && !message(last).1, "and the way on");
     }
 

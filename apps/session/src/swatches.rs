@@ -129,7 +129,7 @@ impl KeptMixture {
         let color = String::new();
         let light_name = light.1.to_owned();
         let mut kept = Self { name, library: title, recipe, vehicle, color, light: light_name };
-        kept.color = shown(kept.appearance(library, light.0)?).to_hex();
+        kept.color = screen_rgb(kept.appearance(library, light.0)?).to_hex();
         Some(kept)
     }
 
@@ -214,7 +214,7 @@ impl KeptMixture {
     }
 }
 
-fn shown(appearance: Appearance) -> Rgb {
+fn screen_rgb(appearance: Appearance) -> Rgb {
     appearance.srgb.linear().mapped_into_gamut().encoded()
 }
 

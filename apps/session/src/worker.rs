@@ -180,8 +180,8 @@ impl<'a> WorkerLoop<'a> {
         times.into_iter().flatten().min().map_or(Wait::Forever, Wait::Until)
     }
 
-    /// Takes a picture for the history if an action has ended. Replays end actions faster than
-    /// anyone looks; they take few.
+    /// Takes a picture for the history if an action has ended. A replay ends actions faster than
+    /// anyone could look, so it takes only few pictures.
     fn take_shot(&mut self) -> Result<(), PaintingError> {
         let Some(OpenPainting { prepared, shots, .. }) = &mut self.open else { return Ok(()) };
         let session = &mut prepared.session;

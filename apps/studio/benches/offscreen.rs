@@ -183,7 +183,7 @@ impl TestRenderer for Kept {
 /// Bounding box of the canvas in pixels, from the last line of the log of figures.
 fn last_canvas(log: &std::path::Path) -> Result<[f64; 4], Box<dyn Error>> {
     let text = std::fs::read_to_string(log)?;
-    let line = text.lines().last().ok_or("no figures were told")?;
+    let line = text.lines().last().ok_or("no figures were printed")?;
     let canvas = serde_json::from_str::<serde_json::Value>(line)?["canvas_px"].clone();
     Ok(serde_json::from_value(canvas)?)
 }
@@ -227,14 +227,14 @@ fn paint(
     frame(vec![Event::PointerMoved(place(0.0))]);
     frame(vec![button(place(0.0), true)]);
     let began = Instant::now();
-    let mut told = 0.0;
+    let mut sent = 0.0;
     let mut times = Vec::new();
-    while told < seconds {
+    while sent < seconds {
         let now = began.elapsed().as_secs_f64();
         let mut events = Vec::new();
-        while told < now {
-            told += INTERVAL.as_secs_f64();
-            events.push(Event::PointerMoved(place(told)));
+        while sent < now {
+            sent += INTERVAL.as_secs_f64();
+            events.push(Event::PointerMoved(place(sent)));
         }
         times.push(frame(events));
     }
@@ -248,7 +248,7 @@ fn report(times: &[[f64; 2]], seconds: f64) {
         values.sort_by(f64::total_cmp);
         values
     };
-    let told = |name: &str, values: Vec<f64>| {
+    let report = |name: &str, values: Vec<f64>| {
         let at = |share: f64| 1e3 * values[(share * (values.len() - 1) as f64) as usize];
         println!(
             "{name}: median {:.1} ms, 95 % {:.1} ms, worst {:.1} ms",
@@ -258,7 +258,7 @@ fn report(times: &[[f64; 2]], seconds: f64) {
         );
     };
     println!("{:.0} frames/s", times.len() as f64 / seconds);
-    told("interface", sorted(&|[step, _]| *step));
-    told("drawing", sorted(&|[_, draw]| *draw));
-    told("frame", sorted(&|[step, draw]| step + draw));
+    report("interface", sorted(&|[step, _]| *step));
+    report("drawing", sorted(&|[_, draw]| *draw));
+    report("frame", sorted(&|[step, draw]| step + draw));
 }

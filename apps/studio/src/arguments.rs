@@ -18,7 +18,7 @@ use session::{Pace, WorkerOptions};
 struct Arguments {
     /// A painting (.exr) to go on with, a pigment library (.json) to begin with, a recording of
     /// strokes (.json) to play, a picture (.png, .jpg, .tif, .webp) to pin beside the canvas, or a
-    /// lamp's spectrum to paint under; told apart by content. Or a scene of paint volumes: shape:village,
+    /// lamp's spectrum to paint under. The content decides. Or a scene of paint volumes: shape:village,
     /// a model (.glb, .obj, .ply) or a script (.toml)
     file: Option<PathBuf>,
     /// Processor or graphics adapter for the paint [default: from the preferences, else
@@ -175,7 +175,7 @@ mod tests {
         let plain = start(&["--home", home]).unwrap();
         assert_eq!(plain.worker.backend, BackendChoice::Gpu);
         assert_eq!((plain.worker.undo_bytes, plain.window), (64 << 20, [1000.0, 700.0]));
-        let told = start(&[
+        let settings = start(&[
             "a.exr",
             "--home",
             home,
@@ -188,11 +188,14 @@ mod tests {
             "--play",
             "painted",
         ]);
-        let told = told.unwrap();
-        assert_eq!(told.file, Some(PathBuf::from("a.exr")));
-        assert_eq!(told.worker, WorkerOptions { backend: BackendChoice::Cpu, undo_bytes: 8 << 20 });
-        assert_eq!((told.window, told.pace), ([640.0, 480.0], Some(Pace::AsPainted)));
-        assert_eq!(told.preferences, preferences, "they stay as they are");
+        let settings = settings.unwrap();
+        assert_eq!(settings.file, Some(PathBuf::from("a.exr")));
+        assert_eq!(
+            settings.worker,
+            WorkerOptions { backend: BackendChoice::Cpu, undo_bytes: 8 << 20 }
+        );
+        assert_eq!((settings.window, settings.pace), ([640.0, 480.0], Some(Pace::AsPainted)));
+        assert_eq!(settings.preferences, preferences, "they stay as they are");
     }
 
     #[test]

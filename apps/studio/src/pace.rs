@@ -97,8 +97,10 @@ fn delay(last: Option<Instant>, now: Instant, slot: Duration) -> Duration {
 
 /// Time of one picture of a display.
 fn slot_of(millihertz: Option<u32>) -> Duration {
-    let told = millihertz.map(|rate| f64::from(rate) / 1000.0);
-    Duration::from_secs_f64(1.0 / told.filter(|rate| RATES_HZ.contains(rate)).unwrap_or(USUAL_HZ))
+    let reported = millihertz.map(|rate| f64::from(rate) / 1000.0);
+    Duration::from_secs_f64(
+        1.0 / reported.filter(|rate| RATES_HZ.contains(rate)).unwrap_or(USUAL_HZ),
+    )
 }
 
 fn change<T>(context: &Context, change: impl FnOnce(&mut Pace) -> T) -> T {

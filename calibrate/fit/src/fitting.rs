@@ -539,9 +539,14 @@ mod tests {
             let predicted = library.mix(recipe).unwrap();
             let read = &readings.table.readings.iter().find(|r| r.sample == sample).unwrap();
             let truth = delta_e(&weights, &read.reflectance, &predicted.hiding(library.saunderson));
-            let told = fitted.evidence().per_sample.iter().find(|s| s.sample == sample).unwrap();
+            let evidence =
+                fitted.evidence().per_sample.iter().find(|s| s.sample == sample).unwrap();
             assert!(truth > 2.0, "the surface reflects more than was read: {truth}");
-            assert!((told.delta_e - truth).abs() < 1e-3, "{sample}: {} for {truth}", told.delta_e);
+            assert!(
+                (evidence.delta_e - truth).abs() < 1e-3,
+                "{sample}: {} for {truth}",
+                evidence.delta_e
+            );
         }
         let left_out = ValidationRequest { fit: options, ..ValidationRequest::default() };
         let worst = validate(&readings, &left_out).unwrap().errors.delta_e.max;
@@ -554,9 +559,9 @@ mod tests {
         let fitted = fit(&readings, &FitRequest::default()).unwrap();
         let least = least_reading(&readings.swatches().unwrap());
         assert!(fitted.library.saunderson.k1 < least, "{:?}", fitted.library.saunderson);
-        let told = fitted.remarks.iter().find(|remark| remark.text.starts_with("k1 = "));
-        let told = &told.unwrap().text;
-        assert!(told.contains("not 0.03") && told.contains("d at 400 nm"), "{told}");
+        let lowered = fitted.remarks.iter().find(|remark| remark.text.starts_with("k1 = "));
+        let lowered = &lowered.unwrap().text;
+        assert!(lowered.contains("not 0.03") && lowered.contains("d at 400 nm"), "{lowered}");
         assert!(fitted.evidence().delta_e.max < 1.0, "{:?}", fitted.evidence().delta_e);
 
         // Readings above the usual k1 keep it, and so does who says how those below are treated.

@@ -337,7 +337,8 @@ fn fault(set: &SwatchSet, swatch: &Swatch) -> Option<DarkerFilm> {
     })
 }
 
-/// Wavelengths at which the film over the card that is brighter there is the darker one.
+/// Wavelengths at which the film over the brighter card is darker than the film over the other
+/// card.
 fn darker(bright: &SwatchFilm, dark: &SwatchFilm) -> Vec<usize> {
     let (Some(bright_bare), Some(dark_bare)) = (&bright.bare, &dark.bare) else {
         return Vec::new();

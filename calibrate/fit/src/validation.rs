@@ -41,9 +41,9 @@ pub struct Validation {
     pub per_sample: Vec<SampleEvidence>,
     /// Mixtures that could not be left out, since a pigment would not be identified without them.
     pub needed: Vec<String>,
-    /// Summary of the colour errors that remain if we may multiply the amounts of all pigments of each
-    /// mixture but its main one by one common factor. This part of the errors is not strength. `None` for
-    /// absolute amounts.
+    /// Summary of the colour errors that remain if, in each mixture, one common factor for all
+    /// pigments except the main one may be chosen freely. These are the errors that do not come
+    /// from tinting strength. `None` for absolute amounts.
     pub strength_free: Option<Summary>,
     /// Pigments by their part of the error, the greatest first. Empty for absolute amounts.
     pub by_pigment: Vec<PigmentError>,
@@ -302,7 +302,7 @@ fn summary<'a>(
     }
 }
 
-/// The fits of parts of the same samples share this.
+/// What all fits without some of the samples share.
 pub(crate) struct Refits<'a> {
     pub(crate) set: &'a SwatchSet,
     pub(crate) observations: &'a [Observation],
@@ -639,7 +639,7 @@ fn is_mixture(amounts: &[f64]) -> bool {
     amounts.iter().filter(|a| **a > 0.0).count() > 1
 }
 
-/// Pigments of which a mixture must contain one, or none for every mixture.
+/// A mixture must contain one of these pigments. If the list is empty, every mixture will do.
 struct ChosenPigments(Vec<usize>);
 
 impl ChosenPigments {

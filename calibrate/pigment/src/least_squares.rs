@@ -158,7 +158,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Cuts the places of `work` into at most `count` parts of about as much work.
+/// Divides the indices of `work` into at most `count` ranges with about equal sums.
 fn even_parts(work: &[usize], count: usize) -> Vec<Range<usize>> {
     let all: usize = work.iter().sum();
     let mut parts = Vec::new();

@@ -129,14 +129,15 @@ impl<'n> Writer<'n> {
         (is_ours && parts.next()?.len() == 6 && parts.next().is_none()).then_some(writer)
     }
 
-    /// Whether a file of this writer and age is left over.
+    /// Whether a temporary file of this writer and age is left over: its process has ended, or the
+    /// file is old.
     fn has_left(&self, age: Duration) -> bool {
         age > OLD || self.machine == machine() && is_running(self.process) == Some(false)
     }
 }
 
 /// Eight digits that differ between machines, between starts of one machine, and between its
-/// containers. In each of these the number of a process means another process.
+/// containers. Process numbers are unique only within one of these.
 fn machine() -> &'static str {
     static MACHINE: OnceLock<String> = OnceLock::new();
     MACHINE.get_or_init(|| {

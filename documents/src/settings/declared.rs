@@ -453,7 +453,7 @@ pub fn out_of_range<T: Table>(settings: &T) -> Option<OutOfRange> {
     })
 }
 
-/// A value as a message has it: whole numbers without a decimal point, texts without quotes.
+/// Formats a value for a message: whole numbers without a decimal point, texts without quotes.
 fn plain(value: &Value) -> String {
     match value {
         Value::String(text) => text.clone(),
@@ -481,7 +481,7 @@ fn typed<T: Table>(source: &Source<'_>) -> Result<T, TextError> {
     })
 }
 
-/// The settings as a table of TOML. This fails for whole numbers that TOML does not have.
+/// The settings as a table of TOML. This fails for whole numbers that are too large for TOML.
 fn toml_of<T: Table>(settings: &T, base: &KeyPath) -> Result<Toml, Box<ValueFault>> {
     Toml::try_from(settings).map_err(|error| {
         ValueFault::new(base, "values of TOML", error, "whole numbers reach to 2^63 - 1")

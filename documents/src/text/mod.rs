@@ -380,7 +380,7 @@ mod tests {
         recipe: String,
     }
 
-    fn told(error: TextError) -> (String, String) {
+    fn message_and_hint(error: TextError) -> (String, String) {
         (error.to_string(), error.hint().unwrap().to_string())
     }
 
@@ -398,12 +398,12 @@ mod tests {
             ("format = \"b\"", "a, line 1: the key `width` is missing", "add a line `width`"),
         ] {
             let read = Source::toml("a", text).and_then(|source| source.typed::<Sheet>());
-            let (found, way) = told(read.unwrap_err());
+            let (found, way) = message_and_hint(read.unwrap_err());
             assert!(found.starts_with(message), "{text}: {found}");
             assert!(way.starts_with(hint), "{text}: {way}");
         }
         let own = Source::toml_with_hint("a", "width = 1\nx", "keys are width and pours");
-        assert_eq!(told(own.unwrap_err()).1, "keys are width and pours");
+        assert_eq!(message_and_hint(own.unwrap_err()).1, "keys are width and pours");
     }
 
     #[test]
@@ -418,7 +418,7 @@ mod tests {
             ),
         ] {
             let read = Source::json("a", text).and_then(|source| source.typed::<Sheet>());
-            let (found, _) = told(read.unwrap_err());
+            let (found, _) = message_and_hint(read.unwrap_err());
             assert!(found.starts_with(message), "{text}: {found}");
             assert!(!found.contains("at line"), "{found}");
         }
@@ -432,7 +432,7 @@ mod tests {
     fn another_format_and_a_newer_version_are_refused() {
         let version = |text| {
             let source = Source::toml("a", text).unwrap();
-            source.version_of("scene", 2).map_err(|error| told(error).0)
+            source.version_of("scene", 2).map_err(|error| message_and_hint(error).0)
         };
         assert_eq!(version("format = \"scene\"\nversion = 1"), Ok(1));
         assert_eq!(version("version = 2\nformat = 'scene'"), Ok(2));
@@ -450,7 +450,7 @@ mod tests {
             assert_eq!(version(text), Err(wanted.to_owned()), "{text}");
         }
         let json = Source::json("a", "{\"format\": \"scene\", \"version\": 9}").unwrap();
-        let (message, hint) = told(json.version_of("scene", 2).unwrap_err());
+        let (message, hint) = message_and_hint(json.version_of("scene", 2).unwrap_err());
         assert_eq!(message, "a, line 1, column 21: version takes 1 to 2, found `9`");
         assert_eq!(hint, "a newer impasto may read it");
     }
@@ -463,7 +463,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("latin.toml");
         std::fs::write(&path, b"a = 1\nb = \"\xe9\"").unwrap();
-        let (message, hint) = told(read_text(&path).unwrap_err());
+        let (message, hint) = message_and_hint(read_text(&path).unwrap_err());
         assert!(message.ends_with("line 2: this is no UTF-8 text, found byte `0xe9`"), "{message}");
         assert_eq!(hint, "save the file as UTF-8");
         let missing = read_text(&folder.path().join("none")).unwrap_err();

@@ -409,8 +409,8 @@ mod tests {
             // A decoder fills the missing part of a JPEG with grey.
             for length in [whole.len() * 2 / 3, whole.len() - 2] {
                 let cut = Photograph::from_bytes("cut", &whole[..length]);
-                let told = matches!(cut, Err(PhotographError::CutOff { .. }));
-                assert_eq!(told, format == Jpeg, "{format:?}, {length} bytes: {cut:?}");
+                let is_reported = matches!(cut, Err(PhotographError::CutOff { .. }));
+                assert_eq!(is_reported, format == Jpeg, "{format:?}, {length} bytes: {cut:?}");
             }
         }
     }

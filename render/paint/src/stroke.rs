@@ -214,15 +214,15 @@ impl Piece {
         Pose {
             x,
             y,
-            pressure: between(self.from.pressure, self.to.pressure, t),
-            tilt_x_deg: between(self.from.tilt_x_deg, self.to.tilt_x_deg, t),
-            tilt_y_deg: between(self.from.tilt_y_deg, self.to.tilt_y_deg, t),
-            twist_deg: between(self.from.twist_deg, self.to.twist_deg, t),
+            pressure: interpolated(self.from.pressure, self.to.pressure, t),
+            tilt_x_deg: interpolated(self.from.tilt_x_deg, self.to.tilt_x_deg, t),
+            tilt_y_deg: interpolated(self.from.tilt_y_deg, self.to.tilt_y_deg, t),
+            twist_deg: interpolated(self.from.twist_deg, self.to.twist_deg, t),
         }
     }
 }
 
-fn between(a: f64, b: f64, t: f64) -> f64 {
+fn interpolated(a: f64, b: f64, t: f64) -> f64 {
     a + (b - a) * t
 }
 

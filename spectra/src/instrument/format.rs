@@ -355,10 +355,10 @@ mod tests {
             ("a.bin", &noise, "no known format", "export text"),
         ] {
             let error = ContentKind::of(file, bytes).unwrap_err();
-            let InstrumentError::NotRead { kind, way: told, .. } = &error else {
+            let InstrumentError::NotRead { kind, way: advice, .. } = &error else {
                 panic!("{error}")
             };
-            assert!(kind.contains(words) && told.contains(way), "{error}: {told}");
+            assert!(kind.contains(words) && advice.contains(way), "{error}: {advice}");
             assert!(error.to_string().is_ascii() && error.to_string().starts_with(file), "{error}");
         }
     }

@@ -223,8 +223,8 @@ mod tests {
         let text = table(std::slice::from_ref(&report));
         assert!(text.contains("1 of 2 figures"), "{text}");
         let json = json(0.25, true, &[report]);
-        let told = [0, 1, 2].map(|at: usize| json["figures"][at]["ok"].clone());
-        assert_eq!(told, [json!(true), json!(false), Value::Null]);
+        let verdicts = [0, 1, 2].map(|at: usize| json["figures"][at]["ok"].clone());
+        assert_eq!(verdicts, [json!(true), json!(false), Value::Null]);
         assert_eq!(json["figures"][1]["value"], Value::Null);
     }
 

@@ -88,8 +88,8 @@ impl Drawing {
         let highest = curve.lines.iter().flatten().fold(1e-9, |a: f64, &b| a.max(b));
         let count = curve.lines.iter().map(Vec::len).max().unwrap_or(0).max(2);
         let length = curve.step_mm * count as f64;
-        let told = format!("{} {length:.0} mm, up to {} mm high", curve.caption, number(highest));
-        self.text((x, y + LINE - 3.0), 7.5, "start", FAINT, &told);
+        let label = format!("{} {length:.0} mm, up to {} mm high", curve.caption, number(highest));
+        self.text((x, y + LINE - 3.0), 7.5, "start", FAINT, &label);
         let top = y + LINE;
         let bottom = y + LINE + CURVE;
         for level in [top, bottom] {

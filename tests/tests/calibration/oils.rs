@@ -369,10 +369,10 @@ fn a_validation_ends_before_most_of_its_mixtures() {
     let left_out = "mixture left out";
     let (stages, error) = until(left_out, |task| prepared.validate(&options, task));
     assert!(is_cancelled(&error), "{error:?}");
-    let told = stages.iter().filter(|stage| **stage == left_out).count();
+    let reports = stages.iter().filter(|stage| **stage == left_out).count();
     let all = prepared.mixtures(&options).unwrap();
     let at_once = rayon::current_num_threads();
-    assert!(told <= at_once && 2 * told < all, "{told} of {all} on {at_once} threads");
+    assert!(reports <= at_once && 2 * reports < all, "{reports} of {all} on {at_once} threads");
 }
 
 #[test]

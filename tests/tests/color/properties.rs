@@ -73,9 +73,13 @@ fn the_metric_of_ciede2000_is_its_difference_nearby() {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let step: [f64; 3] = std::array::from_fn(|_| rng.random_range(-0.03..=0.03));
         let near: [f64; 3] = std::array::from_fn(|i| center.to_array()[i] + step[i]);
-        let told = ciede2000_metric(center).apply(step).iter().map(|v| v * v).sum::<f64>().sqrt();
+        let predicted =
+            ciede2000_metric(center).apply(step).iter().map(|v| v * v).sum::<f64>().sqrt();
         let wanted = delta_e_ciede2000(center, near.into());
-        assert!((told / wanted - 1.0).abs() < 0.01, "{told} for {wanted}: seed {seed}, {center:?}");
+        assert!(
+            (predicted / wanted - 1.0).abs() < 0.01,
+            "{predicted} for {wanted}: seed {seed}, {center:?}"
+        );
     }
 }
 
@@ -118,10 +122,10 @@ fn adaptation_there_and_back_is_the_same_color() {
                 let xyz = Xyz { x: 20.0, y: 12.0, z: 5.0 };
                 let there = adapt(xyz, from, to, adaptation);
                 let back = adapt(there, to, from, adaptation);
-                let told = format!("{adaptation:?} from {from:?} to {to:?}");
-                assert_near(&told, &back.to_array(), &xyz.to_array(), ROUNDING);
+                let label = format!("{adaptation:?} from {from:?} to {to:?}");
+                assert_near(&label, &back.to_array(), &xyz.to_array(), ROUNDING);
                 let white = adapt(from, from, to, adaptation);
-                assert_near(&told, &white.to_array(), &to.to_array(), ROUNDING);
+                assert_near(&label, &white.to_array(), &to.to_array(), ROUNDING);
             }
         }
     }
@@ -370,8 +374,8 @@ fn weights() -> impl Iterator<Item = (String, TristimulusWeights)> {
         Observer::ALL.into_iter().zip(grids()).flat_map(move |(observer, grid)| {
             let light = light.clone();
             [Interpolation::Linear, Interpolation::Sprague].map(move |method| {
-                let told = format!("{} for {observer} on {grid}, {}", light.name(), method.name());
-                (told, TristimulusWeights::new(grid, &light, observer, method).unwrap())
+                let label = format!("{} for {observer} on {grid}, {}", light.name(), method.name());
+                (label, TristimulusWeights::new(grid, &light, observer, method).unwrap())
             })
         })
     })
@@ -379,24 +383,24 @@ fn weights() -> impl Iterator<Item = (String, TristimulusWeights)> {
 
 #[test]
 fn a_perfect_diffuser_is_the_white_of_any_light() {
-    for (told, weights) in weights() {
+    for (label, weights) in weights() {
         let white = weights.white().to_array();
         let diffuser = weights.xyz(&vec![1.0; weights.grid().count()]).to_array();
-        assert_near(&told, &diffuser, &white, ROUNDING);
-        assert_near(&told, &white[1..2], &[100.0], ROUNDING);
+        assert_near(&label, &diffuser, &white, ROUNDING);
+        assert_near(&label, &white[1..2], &[100.0], ROUNDING);
     }
 }
 
 #[test]
 fn weights_sum_to_the_white() {
-    for (told, weights) in weights() {
+    for (label, weights) in weights() {
         let mut sum = [0.0; 3];
         for row in weights.weights() {
             for (total, weight) in sum.iter_mut().zip(row) {
                 *total += weight;
             }
         }
-        assert_near(&told, &sum, &weights.white().to_array(), ROUNDING);
+        assert_near(&label, &sum, &weights.white().to_array(), ROUNDING);
     }
 }
 

@@ -39,15 +39,15 @@ fn a_hex_color_and_its_lab_are_one_target() {
         .collect();
     let again = matched(&[&lab.join(",")]);
     let [one, other] =
-        [&both, &again].map(|told| told[0]["recipes"][0]["pigments"][0]["name"].clone());
+        [&both, &again].map(|targets| targets[0]["recipes"][0]["pigments"][0]["name"].clone());
     assert_eq!(one, other);
     assert_eq!(again[0]["reached"], true);
 }
 
 #[test]
 fn grams_sum_to_what_is_wanted_and_parts_are_whole() {
-    let told = matched(&["#7a6a50", "--grams", "40", "--parts", "12", "--count", "3"]);
-    let recipes = told[0]["recipes"].as_array().unwrap();
+    let targets = matched(&["#7a6a50", "--grams", "40", "--parts", "12", "--count", "3"]);
+    let recipes = targets[0]["recipes"].as_array().unwrap();
     assert_eq!(recipes.len(), 3);
     for recipe in recipes {
         let pigments = recipe["pigments"].as_array().unwrap();
@@ -69,14 +69,14 @@ fn every_spectrum_of_a_file_is_a_target_of_a_batch() {
     let text = "sample,400,500,600,700\nsand,0.3,0.4,0.5,0.55\nslate,0.15,0.17,0.16,0.15\n";
     std::fs::write(&path, text).unwrap();
     let path = path.display().to_string();
-    let told = matched(&[&path, "--illuminant", "D65", "--illuminant", "A=0.5"]);
+    let targets = matched(&[&path, "--illuminant", "D65", "--illuminant", "A=0.5"]);
     let names: Vec<&str> =
-        told.as_array().unwrap().iter().map(|t| t["target"].as_str().unwrap()).collect();
+        targets.as_array().unwrap().iter().map(|t| t["target"].as_str().unwrap()).collect();
     assert_eq!(names, ["sand", "slate"]);
-    let first = &told[0]["recipes"][0]["delta_e"];
+    let first = &targets[0]["recipes"][0]["delta_e"];
     assert!(first["D65"].is_f64() && first["A"].is_f64(), "{first}");
     let one = matched(&[&format!("{path}#slate"), "--illuminant", "D65", "--illuminant", "A=0.5"]);
-    assert_eq!(one[0], told[1]);
+    assert_eq!(one[0], targets[1]);
 }
 
 #[test]
@@ -98,8 +98,8 @@ fn bare_cards_are_targets_only_if_named_or_alone() {
         (format!("{both}#card"), &["card bare white", "card bare black"][..]),
         (alone, &["card bare white", "card bare black"][..]),
     ] {
-        let told = matched(&[&target, "--at-most", "2", "--count", "1"]);
-        let targets = told.as_array().unwrap().iter();
+        let found = matched(&[&target, "--at-most", "2", "--count", "1"]);
+        let targets = found.as_array().unwrap().iter();
         let names: Vec<&str> = targets.map(|target| target["target"].as_str().unwrap()).collect();
         assert_eq!(names, wanted);
     }
@@ -109,13 +109,13 @@ fn bare_cards_are_targets_only_if_named_or_alone() {
 
 #[test]
 fn a_target_out_of_reach_gets_the_nearest_and_is_told_so() {
-    let told = matched(&["#ff00ff"]);
-    assert_eq!(told[0]["reached"], false);
-    assert!(told[0]["nearest"].as_f64().unwrap() > 5.0);
+    let targets = matched(&["#ff00ff"]);
+    assert_eq!(targets[0]["reached"], false);
+    assert!(targets[0]["nearest"].as_f64().unwrap() > 5.0);
     let run = impasto(&["match", &library(), "#ff00ff"]);
     assert!(run.out.contains("out of reach"), "{}", run.out);
     // In CIEDE2000 the nearest colour to this magenta is a grey. In CIE 1976 it is chromatic.
-    let lab = &told[0]["by_cie1976"][0]["lab"]["D65"];
+    let lab = &targets[0]["by_cie1976"][0]["lab"]["D65"];
     assert!(lab[1].as_f64().unwrap() > 30.0, "{lab}");
     assert!(matched(&["#7a6a50"])[0]["by_cie1976"].as_array().unwrap().is_empty());
 }
@@ -138,9 +138,9 @@ fn prices_decide_among_equals() {
         "Vermilion",
     ];
     let arguments = [&["#8090a8"], &only[..], &["--cost", &path, "--tolerance", "5"]].concat();
-    let told = matched(&arguments);
-    let most = told[0]["nearest"].as_f64().unwrap() + 5.0;
-    let costs: Vec<f64> = told[0]["recipes"]
+    let targets = matched(&arguments);
+    let most = targets[0]["nearest"].as_f64().unwrap() + 5.0;
+    let costs: Vec<f64> = targets[0]["recipes"]
         .as_array()
         .unwrap()
         .iter()
@@ -190,8 +190,8 @@ fn numbers(value: &Value) -> Vec<f64> {
 }
 
 /// Pigments and shares of the first recipe for the first target.
-fn first(told: &Value) -> Vec<(String, f64)> {
-    let pigments = told[0]["recipes"][0]["pigments"].as_array().unwrap().iter();
+fn first(targets: &Value) -> Vec<(String, f64)> {
+    let pigments = targets[0]["recipes"][0]["pigments"].as_array().unwrap().iter();
     pigments
         .map(|p| (p["name"].as_str().unwrap().to_owned(), p["share"].as_f64().unwrap()))
         .collect()
@@ -199,8 +199,8 @@ fn first(told: &Value) -> Vec<(String, f64)> {
 
 #[test]
 fn what_is_required_forbidden_and_bounded_reaches_the_search() {
-    fn share(told: &Value, name: &str) -> Option<f64> {
-        first(told).into_iter().find(|(known, _)| known == name).map(|(_, share)| share)
+    fn share(targets: &Value, name: &str) -> Option<f64> {
+        first(targets).into_iter().find(|(known, _)| known == name).map(|(_, share)| share)
     }
     let plain = matched(&["#4a7d8c"]);
     let (taken, _) = first(&plain).remove(0);
@@ -217,8 +217,8 @@ fn what_is_required_forbidden_and_bounded_reaches_the_search() {
 fn the_weights_of_lights_count() {
     let [day, lamp] = [["D65=9", "A"], ["D65", "A=9"]].map(|[first, second]| {
         let lights = ["--illuminant", first, "--illuminant", second, "--tolerance", "0.05"];
-        let told = matched(&[&["#4a7d8c"], &lights[..]].concat());
-        let differences = told[0]["recipes"][0]["delta_e"].clone();
+        let targets = matched(&[&["#4a7d8c"], &lights[..]].concat());
+        let differences = targets[0]["recipes"][0]["delta_e"].clone();
         (differences["D65"].as_f64().unwrap(), differences["A"].as_f64().unwrap())
     });
     assert!(day.0 < lamp.0 && lamp.1 < day.1, "{day:?} {lamp:?}");
@@ -227,8 +227,8 @@ fn the_weights_of_lights_count() {
 #[test]
 fn a_film_is_laid_over_the_ground_that_is_told() {
     fn over(ground: &str, thickness: &str) -> f64 {
-        let told = matched(&["#c8b080", "--thickness", thickness, "--over", ground]);
-        let recipe = told[0]["recipes"][0].clone();
+        let targets = matched(&["#c8b080", "--thickness", thickness, "--over", ground]);
+        let recipe = targets[0]["recipes"][0].clone();
         let recipe_text: Vec<String> = recipe["pigments"]
             .as_array()
             .unwrap()
@@ -241,8 +241,8 @@ fn a_film_is_laid_over_the_ground_that_is_told() {
         mix.push(&told_thickness);
         mix.extend(recipe_text.iter().map(String::as_str));
         let mixed = impasto(&mix).json();
-        let told = numbers(&recipe["lab"]["D65"]);
-        suite::golden::assert_near("Lab", &told, &numbers(&mixed["lab"]), 1e-6);
+        let found = numbers(&recipe["lab"]["D65"]);
+        suite::golden::assert_near("Lab", &found, &numbers(&mixed["lab"]), 1e-6);
         recipe["thickness"].as_f64().unwrap()
     }
     let chosen = over("0.3", "0.2:3");
@@ -254,9 +254,9 @@ fn a_film_is_laid_over_the_ground_that_is_told() {
 fn grams_multiply_the_price_of_one() {
     let only = ["#7a6a50", "--only", "Zinc White", "--only", "Minium", "--cost", "Zinc White=1"];
     let cost = |more: &[&str]| {
-        let told = matched(&[&only[..], &["--cost", "Minium=3"], more].concat());
-        let recipe = told[0]["recipes"][0].clone();
-        let shares = first(&told).into_iter();
+        let targets = matched(&[&only[..], &["--cost", "Minium=3"], more].concat());
+        let recipe = targets[0]["recipes"][0].clone();
+        let shares = first(&targets).into_iter();
         let of_one: f64 =
             shares.map(|(name, share)| if name == "Minium" { 3.0 * share } else { share }).sum();
         (recipe["cost"].as_f64().unwrap(), of_one)
@@ -288,10 +288,10 @@ fn absolute_amounts_are_told_on_the_area_and_take_no_grams() {
     (oils["amounts"], oils["reference"]) = ("absolute".into(), Value::Null);
     std::fs::write(&path, oils.to_string()).unwrap();
     let path = path.display().to_string();
-    let told = impasto(&["match", &path, "#c8b080", "--over", "0.85", "--json"]);
-    assert_eq!(told.status, 0, "{}", told.err);
-    let told = told.json();
-    let recipe = &told[0]["recipes"][0];
+    let run = impasto(&["match", &path, "#c8b080", "--over", "0.85", "--json"]);
+    assert_eq!(run.status, 0, "{}", run.err);
+    let targets = run.json();
+    let recipe = &targets[0]["recipes"][0];
     let pigments = recipe["pigments"].as_array().unwrap().iter();
     let amounts: Vec<String> =
         pigments.map(|p| format!("{}={}", p["name"].as_str().unwrap(), p["amount"])).collect();
@@ -307,8 +307,8 @@ fn absolute_amounts_are_told_on_the_area_and_take_no_grams() {
 fn the_tolerance_follows_the_library_and_is_told() {
     let usual = matched(&["61.2,0.3,-44.5"]);
     let fine = matched(&["61.2,0.3,-44.5", "--tolerance", "0"]);
-    let [few, many] =
-        [&usual, &fine].map(|told| told[0]["recipes"][0]["pigments"].as_array().unwrap().len());
+    let [few, many] = [&usual, &fine]
+        .map(|targets| targets[0]["recipes"][0]["pigments"].as_array().unwrap().len());
     assert_eq!(usual[0]["tolerance_origin"], "library");
     assert!(usual[0]["tolerance"].as_f64().unwrap() > 1.0, "{}", usual[0]["tolerance"]);
     assert_eq!(
@@ -348,8 +348,8 @@ fn amounts_at_their_measured_limit_are_told() {
     assert!(run.out.contains("(the least that was measured)"), "{}", run.out);
     assert!(run.out.contains("without that limit"), "{}", run.out);
     let amounts = |more: &[&str]| -> Vec<f64> {
-        let told = impasto(&[&arguments, more].concat()).json();
-        let recipes = told[0]["recipes"].as_array().unwrap().clone();
+        let json = impasto(&[&arguments, more].concat()).json();
+        let recipes = json[0]["recipes"].as_array().unwrap().clone();
         let pigments = recipes.iter().flat_map(|r| r["pigments"].as_array().unwrap().clone());
         pigments.map(|pigment| pigment["amount"].as_f64().unwrap()).collect()
     };
@@ -444,9 +444,9 @@ fn sample() -> String {
 fn best(arguments: &[&str]) -> Value {
     let found = run(&[arguments, &["--json", "--tolerance", "0", "--count", "1"]].concat());
     assert_eq!(found.status, 0, "{}", found.err);
-    let told = found.json();
+    let json = found.json();
     // The film over the black card.
-    let target = told.as_array().unwrap().iter().find(|t| t["target"] == "14B on black").unwrap();
+    let target = json.as_array().unwrap().iter().find(|t| t["target"] == "14B on black").unwrap();
     target["recipes"][0].clone()
 }
 
@@ -467,10 +467,10 @@ fn a_recipe_by_spectrum_is_less_metameric_than_one_by_colour() {
     assert!(under(&spectrum, "D65") < 0.7 && under(&spectrum, "FL11") < 0.7, "{spectrum}");
     let rms = [&spectrum, &color].map(|recipe| recipe["rms_percent"].as_f64().unwrap());
     assert!(rms[0] < 0.3 * rms[1], "{rms:?}");
-    let told = &spectrum["metamerism"][1];
-    assert_eq!(told["kind"], "special metamerism index, change of illuminant");
-    assert_eq!((&told["from"], &told["to"]), (&"D65".into(), &"FL11".into()));
-    assert_eq!(told["unit"], "CIEDE2000");
+    let metamerism = &spectrum["metamerism"][1];
+    assert_eq!(metamerism["kind"], "special metamerism index, change of illuminant");
+    assert_eq!((&metamerism["from"], &metamerism["to"]), (&"D65".into(), &"FL11".into()));
+    assert_eq!(metamerism["unit"], "CIEDE2000");
 }
 
 #[test]

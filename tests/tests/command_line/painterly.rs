@@ -65,9 +65,9 @@ fn a_sphere_is_painted_in_the_tones_of_the_light_on_white() {
     let [map, picture] = ["m.exr", "p.png"].map(|name| path(&folder, name));
     let arguments = ["shape:sphere", "--width", "120", "--map", &map, "--picture", &picture];
     let light = ["--set", "light.azimuth_deg=-45", "--set", "light.elevation_deg=30"];
-    let told = done(&[&arguments[..], &light, &["--json"]].concat()).json();
-    assert_eq!(told["size"], serde_json::json!([120, 90]), "{told}");
-    assert!(told["strokes"].as_u64().unwrap() > 50, "{told}");
+    let json = done(&[&arguments[..], &light, &["--json"]].concat()).json();
+    assert_eq!(json["size"], serde_json::json!([120, 90]), "{json}");
+    assert!(json["strokes"].as_u64().unwrap() > 50, "{json}");
     let read = image::open(&picture).unwrap();
     assert_eq!((read.width(), read.height()), (120, 90));
     assert_eq!(mean(&picture, [0, 0, 8, 8]), 255.0, "white around the sphere");
@@ -110,8 +110,8 @@ fn strokes_flow_in_a_loop_and_around_a_turntable() {
     let [map, looped, turning] = ["m.exr", "l.png", "t.gif"].map(|name| path(&folder, name));
     let model = ["shape:torus-knot", "--width", "64", "--map", &map, "--json"];
     let flow = ["--set", "flow.periods=1", "--loop", "3", "--animation", &looped];
-    let told = done(&[&model[..], &flow].concat()).json();
-    assert_eq!((&told["frames"], &told["frames_found"]), (&3.into(), &0.into()), "{told}");
+    let json = done(&[&model[..], &flow].concat()).json();
+    assert_eq!((&json["frames"], &json["frames_found"]), (&3.into(), &0.into()), "{json}");
     let frames = Path::new(&looped).with_extension("frames");
     let mut names: Vec<_> =
         std::fs::read_dir(frames).unwrap().map(|entry| entry.unwrap().path()).collect();
@@ -121,8 +121,8 @@ fn strokes_flow_in_a_loop_and_around_a_turntable() {
     assert!(frames[0] != frames[1] && frames[1] != frames[2], "strokes flow");
     let again = done(&[&model[..], &flow].concat()).json();
     assert_eq!(again["frames_found"], 3, "finished frames are kept");
-    let told = done(&[&model[..], &["--turntable", "2", "--animation", &turning]].concat()).json();
-    assert_eq!(told["frames"], 2);
+    let json = done(&[&model[..], &["--turntable", "2", "--animation", &turning]].concat()).json();
+    assert_eq!(json["frames"], 2);
     assert!(std::fs::read(&turning).unwrap().starts_with(b"GIF89a"));
 }
 
@@ -171,8 +171,8 @@ fn parts_of_a_model_have_maps_of_their_own() {
     let [map, picture] = ["m.exr", "p.png"].map(|name| path(&folder, name));
     let leaves = format!("leaves={map}");
     let village = ["shape:village", "--width", "96", "--picture", &picture];
-    let told = done(&[&village[..], &["--map", &map, "--map", &leaves, "--json"]].concat()).json();
-    assert_eq!((&told["maps"], &told["regions"]), (&2.into(), &1.into()), "{told}");
+    let json = done(&[&village[..], &["--map", &map, "--map", &leaves, "--json"]].concat()).json();
+    assert_eq!((&json["maps"], &json["regions"]), (&2.into(), &1.into()), "{json}");
     let doors = format!("door={map}");
     let run = painterly(&[&village[..], &["--map", &map, "--map", &doors]].concat());
     assert!(run.status == 1 && run.err.contains("no material `door`"), "{}", run.err);
@@ -265,8 +265,8 @@ fn a_photograph_is_painted_in_its_colours_or_in_those_of_the_map() {
     let [map, photo, picture] = ["m.exr", "photo.png", "p.png"].map(|name| path(&folder, name));
     write(&photo, |x, _| if x < 30 { [40, 60, 140] } else { [210, 205, 200] });
     let arguments = [&photo, "--map", &map, "--width", "120", "--picture", &picture];
-    let told = done(&[&arguments[..], &["--json"]].concat()).json();
-    assert_eq!(told["size"], serde_json::json!([120, 80]), "{told}");
+    let json = done(&[&arguments[..], &["--json"]].concat()).json();
+    assert_eq!(json["size"], serde_json::json!([120, 80]), "{json}");
     let own = image::open(&picture).unwrap().to_rgb8()[(25, 40)].0;
     assert!(own[2] > own[0].saturating_add(40), "blue stays: {own:?}");
     let dark = mean(&picture, [5, 5, 45, 70]);
@@ -288,9 +288,9 @@ fn layers_presets_and_stages_of_a_photograph() {
         |x, y| if x > 30 && (x / 3 + y / 3).is_multiple_of(2) { [230; 3] } else { [60; 3] },
     );
     let arguments = [&photo, "--map", &map, "--width", "120", "--stages", &stages, "--json"];
-    let told = done(&[&arguments[..], &["--preset", "knife"]].concat()).json();
-    let layers = told["layers"].as_array().unwrap();
-    assert!(layers.len() == 2 && layers.iter().all(|count| count.as_u64() > Some(0)), "{told}");
+    let json = done(&[&arguments[..], &["--preset", "knife"]].concat()).json();
+    let layers = json["layers"].as_array().unwrap();
+    assert!(layers.len() == 2 && layers.iter().all(|count| count.as_u64() > Some(0)), "{json}");
     for name in ["01-depth", "03-layer-1-directions", "09-layer-2-painted", "11-picture"] {
         let file = Path::new(&stages).join(format!("{name}.png"));
         assert!(file.exists(), "{}", file.display());
@@ -309,8 +309,8 @@ fn regions_and_flow_move_strokes_of_a_photograph_in_a_loop() {
     std::fs::write(&regions, text).unwrap();
     let arguments = [&photo, "--map", &map, "--width", "60", "--regions", &regions];
     let moving = ["--directions", &flow, "--loop", "3", "--animation", &looped, "--json"];
-    let told = done(&[&arguments[..], &moving].concat()).json();
-    assert_eq!((&told["frames"], &told["maps"]), (&3.into(), &2.into()), "{told}");
+    let json = done(&[&arguments[..], &moving].concat()).json();
+    assert_eq!((&json["frames"], &json["maps"]), (&3.into(), &2.into()), "{json}");
     let frames = Path::new(&looped).with_extension("frames");
     let names = std::fs::read_dir(&frames).unwrap().map(|entry| entry.unwrap().path());
     let mut names: Vec<_> = names.filter(|name| name.extension() == Some("png".as_ref())).collect();
@@ -337,9 +337,9 @@ fn a_depth_picture_turns_a_photograph() {
     let front = std::fs::read(&picture).unwrap();
     done(&[&arguments[..], &["--camera", "20,0", "--picture", &picture]].concat());
     assert!(front != std::fs::read(&picture).unwrap(), "seen from the side");
-    let told =
+    let run =
         done(&[&arguments[..], &["--turntable", "2", "--animation", &swing, "--json"]].concat());
-    assert_eq!(told.json()["frames"], 2);
+    assert_eq!(run.json()["frames"], 2);
     let flat = [&photo, "--map", &map, "--camera", "20,0", "--picture", &picture];
     let run = painterly(&flat);
     assert!(run.status == 2 && run.err.contains("applies to meshes only"), "{}", run.err);

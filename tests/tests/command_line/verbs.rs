@@ -408,19 +408,19 @@ fn lamps_are_described_by_name_and_by_file() {
     let bulb = path.to_str().unwrap();
     let run = impasto(&["light", "FL11", bulb, "FL2", "--json"]);
     assert_eq!(run.status, 0, "{}", run.err);
-    let told = run.json();
-    let number = |at: usize, key: &str| told[at][key].as_f64().unwrap();
+    let json = run.json();
+    let number = |at: usize, key: &str| json[at][key].as_f64().unwrap();
     assert!(
         (number(0, "ra") - 82.9).abs() < 0.1 && (number(0, "rf") - 80.15).abs() < 0.1,
-        "{told}"
+        "{json}"
     );
-    assert!((number(1, "kelvin") - 2700.0).abs() < 1.0, "{}", told[1]);
+    assert!((number(1, "kelvin") - 2700.0).abs() < 1.0, "{}", json[1]);
     assert!(number(1, "ra") > 99.9 && number(1, "rf") > 99.9 && number(1, "rg") > 99.8);
-    assert_eq!(told[1]["light"], bulb);
-    assert_eq!(told[2]["special"].as_array().unwrap().len(), 14);
-    assert_eq!(told[2]["samples"].as_array().unwrap().len(), 99);
+    assert_eq!(json[1]["light"], bulb);
+    assert_eq!(json[2]["special"].as_array().unwrap().len(), 14);
+    assert_eq!(json[2]["samples"].as_array().unwrap().len(), 99);
     // R9 of the tube FL2 is below 0, so reds look brown.
-    assert!(told[2]["special"][8].as_f64().unwrap() < 0.0, "{}", told[2]["special"]);
+    assert!(json[2]["special"][8].as_f64().unwrap() < 0.0, "{}", json[2]["special"]);
 }
 
 #[test]

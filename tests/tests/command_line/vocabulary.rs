@@ -110,9 +110,9 @@ fn old_spellings_are_not_in_the_help() {
         (&["stencil"], &["--pigments"]),
     ];
     for (verb, old) in cases {
-        let told = done(&[verb, &["--help"]].concat()).out;
+        let help = done(&[verb, &["--help"]].concat()).out;
         for word in old {
-            assert!(!told.contains(word), "{verb:?} tells {word}: {told}");
+            assert!(!help.contains(word), "{verb:?} tells {word}: {help}");
         }
     }
 }

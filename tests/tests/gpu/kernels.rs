@@ -163,12 +163,12 @@ fn the_program_names_the_adapter_that_would_be_used() {
     let found = adapters();
     let run = impasto(&["gpu", "--json"]);
     assert_eq!((run.status, run.err.as_str()), (0, ""));
-    let told = run.json();
+    let json = run.json();
     let used = best(&found, BackendChoice::Auto).map(|adapter| adapter.name.as_str());
     let forced = best(&found, BackendChoice::Gpu).map(|adapter| adapter.name.as_str());
-    assert_eq!(told["used"].as_str(), used);
-    assert_eq!(told["with_backend_gpu"].as_str(), forced);
-    let listed = told["adapters"].as_array().unwrap();
+    assert_eq!(json["used"].as_str(), used);
+    assert_eq!(json["with_backend_gpu"].as_str(), forced);
+    let listed = json["adapters"].as_array().unwrap();
     assert_eq!(listed.len(), found.len());
     for (listed, adapter) in listed.iter().zip(&found) {
         let cells = listed["largest_canvas_cells"].as_u64().unwrap();

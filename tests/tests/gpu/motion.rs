@@ -81,10 +81,10 @@ fn a_sub_step_is_that_of_the_processor_over_all_regimes() {
             let contact = [contact_on(&mut rng, &start, rect)];
             wanted.apply_contacts(wanted_brush, &motion, &contact).unwrap();
             engine.apply_contacts(brush, &motion, &contact).unwrap();
-            let told = format!("canvas {canvas:?}, head {head:?}, {rect:?}");
-            assert!(engine.wet().unwrap() == wanted.wet().unwrap(), "wet paint, {told}");
+            let label = format!("canvas {canvas:?}, head {head:?}, {rect:?}");
+            assert!(engine.wet().unwrap() == wanted.wet().unwrap(), "wet paint, {label}");
             let paint = wanted.brush_paint(wanted_brush).unwrap();
-            assert!(engine.brush_paint(brush).unwrap() == paint, "the head, {told}");
+            assert!(engine.brush_paint(brush).unwrap() == paint, "the head, {label}");
         }
     }
 }

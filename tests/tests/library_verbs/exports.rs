@@ -15,12 +15,12 @@ use spectra::swatch_file::{
 };
 use suite::program::impasto;
 
-use crate::{Shelf, done, oils, read, refused};
+use crate::{LibraryFolder, done, oils, read, refused};
 
 /// Exports the oils as `format` with `more` arguments, and reads the file back.
 fn exported(format: &str, more: &[&str]) -> SwatchFile {
-    let shelf = Shelf::new();
-    let file = shelf.path("palette");
+    let folder = LibraryFolder::new();
+    let file = folder.path("palette");
     done(&[&["export", &oils(), "--to", format, "--output", &file], more].concat());
     let bytes = std::fs::read(&file).unwrap();
     let palette = match format {
@@ -81,8 +81,8 @@ fn tints_stand_beside_their_pigment() {
     assert_eq!(mix["hex"], palette.swatches[3].color.srgb().unwrap().to_hex());
     let one = exported("gpl", &["--tints=2.5"]);
     assert_eq!(one.swatches[1].name, "Eosin Lake (wax) 1:2.5");
-    let shelf = Shelf::new();
-    let file = shelf.path("x");
+    let folder = LibraryFolder::new();
+    let file = folder.path("x");
     refused(&["export", &oils(), "--to", "gpl", "--tints=-1", "--output", &file], 2, &["`-1`"]);
     refused(&["export", &oils(), "--to", "csv", "--tints", "--output", &file], 2, &["no tints"]);
     refused(&["export", &oils(), "--to", "gpl", "--space", "lab", "--output", &file], 2, &["Lab"]);
@@ -90,8 +90,8 @@ fn tints_stand_beside_their_pigment() {
 
 #[test]
 fn cxf_holds_the_spectra_that_mix_predicts() {
-    let shelf = Shelf::new();
-    let file = shelf.path("oils.cxf");
+    let folder = LibraryFolder::new();
+    let file = folder.path("oils.cxf");
     done(&["export", &oils(), "--to", "cxf", "--tints=4", "--output", &file]);
     let bytes = std::fs::read(&file).unwrap();
     let records = spectra::instrument::read(&file, &bytes, None).unwrap().spectra;
@@ -107,8 +107,8 @@ fn cxf_holds_the_spectra_that_mix_predicts() {
 
 #[test]
 fn what_srgb_cannot_show_is_said() {
-    let shelf = Shelf::new();
-    let file = shelf.path("x.gpl");
+    let folder = LibraryFolder::new();
+    let file = folder.path("x.gpl");
     let run = done(&["export", &oils(), "--to", "gpl", "--output", &file]);
     assert!(run.err.contains("outside sRGB") && run.err.contains("Emerald Green"), "{}", run.err);
     assert!(!run.err.contains("Viridian"), "{}", run.err);
@@ -116,9 +116,9 @@ fn what_srgb_cannot_show_is_said() {
 
 #[test]
 fn a_table_of_curves_makes_the_same_library_again() {
-    let shelf = Shelf::new();
-    let csv = shelf.path("curves.csv");
-    let json = shelf.path("again.json");
+    let folder = LibraryFolder::new();
+    let csv = folder.path("curves.csv");
+    let json = folder.path("again.json");
     done(&["export", &oils(), "--to", "csv", "--output", &csv]);
     done(&["convert", &csv, "--output", &json, "--title", "Oils"]);
     let first = read(&oils());
@@ -140,9 +140,9 @@ fn a_table_of_curves_makes_the_same_library_again() {
 
 #[test]
 fn a_faulty_table_is_refused_with_its_place() {
-    let shelf = Shelf::new();
-    let csv = shelf.path("curves.csv");
-    let json = shelf.path("out.json");
+    let folder = LibraryFolder::new();
+    let csv = folder.path("curves.csv");
+    let json = folder.path("out.json");
     let head = "pigment,quantity,400,500,600";
     for (text, words) in [
         ("name,quantity,400\n", &["row 1", "`pigment`"][..]),
@@ -317,8 +317,8 @@ fn hue_saturation_and_brightness_are_read_as_rgb() {
 
 #[test]
 fn a_thousand_colors_come_back_from_mixing() {
-    let shelf = Shelf::new();
-    let start = shelf.path("white.json");
+    let folder = LibraryFolder::new();
+    let start = folder.path("white.json");
     done(&["from-rgb", "#f4f4f0", "--name", "White", "--output", &start]);
     let mut library = read(&start);
     let weights = Viewing::default().weights(library.grid).unwrap();
@@ -357,8 +357,8 @@ fn a_thousand_colors_come_back_from_mixing() {
 
 #[test]
 fn a_guess_joins_a_library_and_is_marked_everywhere() {
-    let shelf = Shelf::new();
-    let with = shelf.path("with.json");
+    let folder = LibraryFolder::new();
+    let with = folder.path("with.json");
     let run = done(&["from-rgb", &oils(), "#2a5caa", "--name", "Sky", "--output", &with]);
     assert!(run.out.contains("#2a5caa, 0.000 CIEDE2000"), "{}", run.out);
     let library = read(&with);
@@ -386,8 +386,8 @@ fn a_guess_joins_a_library_and_is_marked_everywhere() {
 
 #[test]
 fn a_glaze_shows_its_color_over_white_and_its_ground_elsewhere() {
-    let shelf = Shelf::new();
-    let with = shelf.path("with.json");
+    let folder = LibraryFolder::new();
+    let with = folder.path("with.json");
     let glaze = ["from-rgb", &oils(), "lab(60, 40, 20)", "--name", "Rose", "--glaze"];
     done(&[&glaze[..], &["--output", &with]].concat());
     let [on_white, on_black] = ["white", "black"].map(|over| -> Vec<f64> {
@@ -400,8 +400,8 @@ fn a_glaze_shows_its_color_over_white_and_its_ground_elsewhere() {
 
 #[test]
 fn a_color_out_of_reach_is_refused_with_the_nearest() {
-    let shelf = Shelf::new();
-    let new = shelf.path("new.json");
+    let folder = LibraryFolder::new();
+    let new = folder.path("new.json");
     let black = ["from-rgb", "#000000", "--name", "Black", "--output", &new];
     refused(&black, 1, &["k1 = 0.03", "the nearest is 12.", "`#313131`", "--nearest"]);
     assert!(!std::path::Path::new(&new).exists(), "nothing written");
@@ -416,14 +416,14 @@ fn a_color_out_of_reach_is_refused_with_the_nearest() {
 
 #[test]
 fn options_may_stand_between_library_and_color() {
-    let shelf = Shelf::new();
-    let bare = shelf.path("bare.json");
-    let between = shelf.path("between.json");
+    let folder = LibraryFolder::new();
+    let bare = folder.path("bare.json");
+    let between = folder.path("between.json");
     done(&["from-rgb", &oils(), "40,5,-45", "--name", "Sky", "--output", &bare]);
     done(&["from-rgb", &oils(), "--name", "Sky", "lab(40, 5, -45)", "--output", &between]);
     let [one, other] = [&bare, &between].map(|path| read(path).pigments.pop().unwrap().absorption);
     assert_eq!(one, other);
-    let new = shelf.path("new.json");
+    let new = folder.path("new.json");
     done(&["from-rgb", "--name", "White", "--output", &new, "#f4f4f0"]);
     let list = impasto(&["library", "list", &new]);
     assert!(list.out.contains("S = 1 for White"), "{}", list.out);

@@ -5,16 +5,16 @@ use calibrate::library::{AmountKind, Pigment};
 use serde_json::Value;
 use suite::golden::assert_near;
 
-use crate::{Shelf, done, furthest, oils, read, refused, text, tried};
+use crate::{LibraryFolder, done, furthest, oils, read, refused, text, tried};
 
 /// Largest change of a reflectance when K and S are rounded to six digits.
 const ROUNDING: f64 = 1e-5;
 
 #[test]
 fn another_reference_keeps_every_mixture_and_back_is_the_same() {
-    let shelf = Shelf::new();
-    let lead = shelf.path("lead.json");
-    let back = shelf.path("back.json");
+    let folder = LibraryFolder::new();
+    let lead = folder.path("lead.json");
+    let back = folder.path("back.json");
     let run = done(&["convert", &oils(), "--reference", "Lead White", "--output", &lead]);
     assert!(run.err.contains("thickness of others is now relative to Lead White"), "{}", run.err);
     let first = read(&oils());
@@ -46,10 +46,10 @@ fn curves(pigment: &Pigment) -> [(String, &Vec<f64>); 4] {
 
 #[test]
 fn a_merged_library_mixes_as_its_sources_do() {
-    let shelf = Shelf::new();
-    let blues = shelf.path("blues.json");
-    let reds = shelf.path("reds.json");
-    let scaled = shelf.path("scaled.json");
+    let folder = LibraryFolder::new();
+    let blues = folder.path("blues.json");
+    let reds = folder.path("reds.json");
+    let scaled = folder.path("scaled.json");
     done(&["subset", &oils(), "Zinc White", "Cobalt", "Ultramarine", "--output", &blues]);
     // The second library is relative to lead white and has another name for zinc white.
     done(&[
@@ -63,9 +63,9 @@ fn a_merged_library_mixes_as_its_sources_do() {
         &reds,
     ]);
     done(&["convert", &reds, "--reference", "Lead White", "--output", &scaled]);
-    let other = shelf.path("other.json");
+    let other = folder.path("other.json");
     done(&["rename", &scaled, "Zinc White=Snow", "--output", &other]);
-    let merged = shelf.path("merged.json");
+    let merged = folder.path("merged.json");
     refused(&["merge", &blues, &other, "--output", &merged], 1, &["Zinc White", "--as NAME"]);
     let run = done(&["merge", &blues, &other, "--as", "Snow", "--output", &merged, "--json"]);
     let said = run.json();
@@ -81,20 +81,20 @@ fn a_merged_library_mixes_as_its_sources_do() {
         "{}",
         furthest(&read(&oils()), &library)
     );
-    let again = shelf.path("again.json");
+    let again = folder.path("again.json");
     done(&["merge", &blues, &other, "--as", "Snow", "--output", &again]);
     assert_eq!(text(&merged), text(&again), "a rerun is byte-equal");
 }
 
 #[test]
 fn two_pigments_of_one_name_need_a_choice() {
-    let shelf = Shelf::new();
-    let batch = shelf.changed("batch.json", &oils(), |library| {
+    let folder = LibraryFolder::new();
+    let batch = folder.changed("batch.json", &oils(), |library| {
         let viridian = library.find("Viridian").unwrap();
         library[viridian].absorption.iter_mut().for_each(|k| *k *= 1.5);
         library.licence = "CC BY 4.0".into();
     });
-    let merged = shelf.path("merged.json");
+    let merged = folder.path("merged.json");
     let clash = ["merge", &oils(), &batch, "--output", &merged];
     refused(&clash, 1, &["`Viridian`", "--prefer first", "library rename"]);
     assert!(!std::path::Path::new(&merged).exists(), "nothing half written");
@@ -111,22 +111,22 @@ fn two_pigments_of_one_name_need_a_choice() {
 
 #[test]
 fn what_does_not_fit_together_is_refused_with_its_reason() {
-    let shelf = Shelf::new();
-    let merged = shelf.path("merged.json");
+    let folder = LibraryFolder::new();
+    let merged = folder.path("merged.json");
     let end = ["--output", &merged];
     let refuse = |other: &str, words: &[&str]| {
         refused(&[&["merge", &oils(), other], &end[..]].concat(), 1, words);
     };
-    let surface = shelf.changed("surface.json", &oils(), |library| library.saunderson.k1 = 0.02);
+    let surface = folder.changed("surface.json", &oils(), |library| library.saunderson.k1 = 0.02);
     refuse(&surface, &["the surface differs", "k1 = 0.02", "--any-surface"]);
     let run = done(&[&["merge", &oils(), &surface], &end[..], &["--any-surface"]].concat());
     assert!(run.err.contains("do not hold under the first's"), "{}", run.err);
-    let amounts = shelf.changed("amounts.json", &oils(), |library| {
+    let amounts = folder.changed("amounts.json", &oils(), |library| {
         library.amounts = AmountKind::Absolute;
         library.reference = None;
     });
     refuse(&amounts, &["absolute", "relative", "library convert"]);
-    let narrow = shelf.path("narrow.json");
+    let narrow = folder.path("narrow.json");
     done(&["convert", &oils(), "--grid", "420,680,10", "--output", &narrow]);
     refuse(&narrow, &["400", "--hold-ends"]);
     refused(
@@ -140,8 +140,8 @@ fn what_does_not_fit_together_is_refused_with_its_reason() {
 
 #[test]
 fn amounts_become_shares_of_the_same_colors() {
-    let shelf = Shelf::new();
-    let washes = shelf.changed("washes.json", &oils(), |library| {
+    let folder = LibraryFolder::new();
+    let washes = folder.changed("washes.json", &oils(), |library| {
         library.amounts = AmountKind::Absolute;
         library.reference = None;
         library.unevenness = 0.3;
@@ -151,7 +151,7 @@ fn amounts_become_shares_of_the_same_colors() {
             pigment.scattering.iter_mut().for_each(|s| *s *= 40.0);
         }
     });
-    let shares = shelf.path("shares.json");
+    let shares = folder.path("shares.json");
     let run = done(&["convert", &washes, "--reference", "lead white", "--output", &shares]);
     assert!(run.err.contains("amounts became shares"), "{}", run.err);
     let before = read(&washes);
@@ -162,9 +162,9 @@ fn amounts_become_shares_of_the_same_colors() {
 
 #[test]
 fn other_wavelengths_keep_the_values_they_share() {
-    let shelf = Shelf::new();
-    let fine = shelf.path("fine.json");
-    let back = shelf.path("back.json");
+    let folder = LibraryFolder::new();
+    let fine = folder.path("fine.json");
+    let back = folder.path("back.json");
     let run = done(&["convert", &oils(), "--grid", "400,700,5", "--output", &fine]);
     assert!(run.err.contains("steps of 5 nm"), "{}", run.err);
     assert_eq!(read(&fine).grid.count(), 61);
@@ -182,14 +182,14 @@ fn other_wavelengths_keep_the_values_they_share() {
 
 #[test]
 fn a_library_on_other_wavelengths_joins_with_a_warning() {
-    let shelf = Shelf::new();
-    let fine = shelf.path("fine.json");
-    let merged = shelf.path("merged.json");
+    let folder = LibraryFolder::new();
+    let fine = folder.path("fine.json");
+    let merged = folder.path("merged.json");
     done(&["convert", &oils(), "--grid", "400,700,5", "--output", &fine]);
     let run = done(&["merge", &oils(), &fine, "--output", &merged]);
     assert!(run.err.contains("to 400 to 700 nm in steps of 10 nm (sprague)"), "{}", run.err);
     assert_eq!(read(&merged).pigments.len(), 20, "the same figures at the same wavelengths");
-    let coarse = shelf.path("coarse.json");
+    let coarse = folder.path("coarse.json");
     let [sprague, linear] = ["sprague", "linear"].map(|method| {
         done(&["convert", &oils(), "--grid", "400,700,20", "--output", &coarse]);
         let more = ["--grid", "400,700,10", "--interpolation", method, "--output", &fine];
@@ -207,9 +207,9 @@ fn a_library_on_other_wavelengths_joins_with_a_warning() {
 
 #[test]
 fn renaming_changes_names_alone() {
-    let shelf = Shelf::new();
-    let there = shelf.path("there.json");
-    let back = shelf.path("back.json");
+    let folder = LibraryFolder::new();
+    let there = folder.path("there.json");
+    let back = folder.path("back.json");
     let names = ["Zinc White=Lead White", "Lead White=Zinc White", "Viridian=PG18 = green"];
     done(&[&["rename", &oils()][..], &names, &["--output", &there]].concat());
     let exchanged = read(&there);
@@ -233,8 +233,8 @@ fn renaming_changes_names_alone() {
 
 #[test]
 fn a_subset_keeps_figures_and_says_whose_errors_it_tells() {
-    let shelf = Shelf::new();
-    let few = shelf.path("few.json");
+    let folder = LibraryFolder::new();
+    let few = folder.path("few.json");
     refused(
         &["subset", &oils(), "Viridian", "Cobalt", "--output", &few],
         1,
@@ -282,8 +282,8 @@ fn the_oils_are_sound_with_known_doubts() {
 
 #[test]
 fn what_was_made_doubtful_is_found() {
-    let shelf = Shelf::new();
-    let doubtful = shelf.changed("doubtful.json", &oils(), |library| {
+    let folder = LibraryFolder::new();
+    let doubtful = folder.changed("doubtful.json", &oils(), |library| {
         library.licence = " ".into();
         library.source = String::new();
         let viridian = library.find("Viridian").unwrap();
@@ -309,12 +309,12 @@ fn what_was_made_doubtful_is_found() {
         "the same figures as Minium",
         "spelled almost as Vermilion",
         "guessed from a colour",
-        "K is known to 1",
+        "K is uncertain by 1",
         "no evidence",
     ] {
         assert!(found.contains(words), "{words}: {found}");
     }
-    let narrow = shelf.path("narrow.json");
+    let narrow = folder.path("narrow.json");
     done(&["convert", &oils(), "--grid", "450,650,25", "--output", &narrow]);
     let found = warnings(&narrow);
     assert!(found.contains("leaves out") && found.contains("coarse"), "{found}");
@@ -322,8 +322,8 @@ fn what_was_made_doubtful_is_found() {
 
 #[test]
 fn a_faulty_library_ends_with_status_one() {
-    let shelf = Shelf::new();
-    let faulty = shelf.changed("faulty.json", &oils(), |library| {
+    let folder = LibraryFolder::new();
+    let faulty = folder.changed("faulty.json", &oils(), |library| {
         let white = library.find("Zinc White").unwrap();
         library[white].scattering[5] = 1.25;
         library.pigments[0].scattering[7] = 0.0;
@@ -334,7 +334,7 @@ fn a_faulty_library_ends_with_status_one() {
     let faults = run.json()["faults"].to_string();
     assert!(faults.contains("is 1.25 at 450 nm"), "{faults}");
     assert!(faults.contains("K and S are both 0 at 470 nm"), "{faults}");
-    let none = shelf.path("none.json");
+    let none = folder.path("none.json");
     std::fs::write(&none, "[]").unwrap();
     refused(&["check", &none], 1, &["none.json"]);
 }
@@ -352,8 +352,8 @@ fn a_library_does_not_differ_from_itself() {
 
 #[test]
 fn a_batch_that_differs_is_told_and_fails() {
-    let shelf = Shelf::new();
-    let batch = shelf.changed("batch.json", &oils(), |library| {
+    let folder = LibraryFolder::new();
+    let batch = folder.changed("batch.json", &oils(), |library| {
         let cobalt = library.find("Cobalt").unwrap();
         // If both K and S are halved, the masstone stays, but the pigment is half as strong in
         // mixtures.
@@ -384,12 +384,12 @@ fn a_batch_that_differs_is_told_and_fails() {
 
 #[test]
 fn libraries_on_two_grids_are_each_seen_on_their_own() {
-    let shelf = Shelf::new();
-    let fine = shelf.path("fine.json");
+    let folder = LibraryFolder::new();
+    let fine = folder.path("fine.json");
     let grid = ["--grid", "400,700,5", "--interpolation", "sprague"];
     done(&[&["convert", &oils()][..], &grid, &["--output", &fine]].concat());
     done(&["diff", &oils(), &fine, "--tolerance", "0.05"]);
-    let narrow = shelf.path("narrow.json");
+    let narrow = folder.path("narrow.json");
     done(&["convert", &oils(), "--grid", "420,680,10", "--output", &narrow]);
     let run = tried(&["diff", &oils(), &narrow, "--tolerance", "0.001"]);
     assert_eq!(run.status, 1, "{}", run.err);

@@ -24,9 +24,9 @@ fn read(path: &str) -> PigmentLibrary {
 }
 
 /// A temporary folder for files.
-struct Shelf(TempDir);
+struct LibraryFolder(TempDir);
 
-impl Shelf {
+impl LibraryFolder {
     fn new() -> Self {
         Self(tempfile::tempdir().unwrap())
     }

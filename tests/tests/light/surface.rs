@@ -412,7 +412,7 @@ fn a_priming_is_the_librarys_white_a_number_a_color_or_a_spectrum() {
 fn descriptions_come_back_and_faulty_ones_are_refused() {
     let whole = r##"{"kind":"linen","seed":3,"threads_per_cm":9.0,"relief_mm":0.2,"reflectance":{"rgb":"#f4f1e8"},"gloss":{"strength":0.1,"exponent":12.0}}"##;
     assert_eq!(serde_json::to_string(&spec(whole)).unwrap(), whole);
-    for (json, told) in [
+    for (json, reason) in [
         (r#"{"kind":"silk"}"#, "silk"),
         (r#"{"kind":"linen","seeds":1}"#, "seeds"),
         (r#"{"kind":"paper","threads_per_cm":9}"#, "threads_per_cm"),
@@ -422,9 +422,9 @@ fn descriptions_come_back_and_faulty_ones_are_refused() {
         (r#"{"seed":1}"#, "kind"),
     ] {
         let error = serde_json::from_str::<GroundSpec>(json).unwrap_err().to_string();
-        assert!(error.contains(told), "{json}: {error}");
+        assert!(error.contains(reason), "{json}: {error}");
     }
-    for (json, told) in [
+    for (json, reason) in [
         (r#"{"kind":"linen","threads_per_cm":0}"#, "threads_per_cm of a ground is 2 to 60"),
         (r#"{"kind":"paper","relief_mm":-1}"#, "relief_mm of a ground is 0 to 2 mm"),
         (r#"{"kind":"panel","reflectance":1.5}"#, "found `1.5`"),
@@ -439,7 +439,7 @@ fn descriptions_come_back_and_faulty_ones_are_refused() {
         ),
     ] {
         let error = spec(json).build(4, 4, CELL_MM, &oils()).unwrap_err();
-        assert!(error.to_string().contains(told), "{json}: {error}");
+        assert!(error.to_string().contains(reason), "{json}: {error}");
     }
     let deep = spec(r#"{"kind":"linen","relief_mm":2}"#).build(64, 64, 0.001, &oils());
     assert!(matches!(deep, Err(GroundError::TooHigh { .. })), "{deep:?}");

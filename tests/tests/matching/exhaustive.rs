@@ -175,8 +175,8 @@ fn a_mixture_is_found_again_from_its_color_under_three_lights() {
         wanted.sort_unstable();
         assert_eq!(sorted(found), wanted, "{names:?}");
         for &(pigment, share) in &recipe {
-            let told = found.shares.iter().find(|(p, _)| *p == pigment).unwrap().1;
-            assert!((told - share).abs() < 1e-3, "{names:?}: {told} for {share}");
+            let found_share = found.shares.iter().find(|(p, _)| *p == pigment).unwrap().1;
+            assert!((found_share - share).abs() < 1e-3, "{names:?}: {found_share} for {share}");
         }
     }
 }
@@ -315,9 +315,9 @@ fn every_recipe_keeps_every_limit() {
                         assert!(request.allowed.contains(&pigment), "{pigment:?} was not allowed");
                         assert!(share >= least - 1e-9, "{share} of {pigment:?}");
                     }
-                    for (pigment, told) in &required {
+                    for (pigment, given) in &required {
                         let share = recipe.shares.iter().find(|(p, _)| p == pigment).unwrap().1;
-                        assert!(told.is_none_or(|told| (told - share).abs() < 1e-9), "{share}");
+                        assert!(given.is_none_or(|given| (given - share).abs() < 1e-9), "{share}");
                     }
                 }
             }

@@ -55,8 +55,12 @@ fn the_reflectance_told_is_that_of_the_recipe() {
                 FilmKind::Over { .. } => mixture.film(0.8, &ground, library.film()),
             };
             suite::golden::assert_near("reflectance", &recipe.reflectance, &mixed, 1e-9);
-            let told = recipe.delta_e[0];
-            assert!((told - recipe.distance).abs() < 1e-9, "{told} for {}", recipe.distance);
+            let reported = recipe.delta_e[0];
+            assert!(
+                (reported - recipe.distance).abs() < 1e-9,
+                "{reported} for {}",
+                recipe.distance
+            );
         }
     }
 }

@@ -1,7 +1,6 @@
-//! Recipes by spectrum: mixtures found again from their own reflectance, limits, and what is
-//! refused.
-//!
-//! Recipe search with progress, and with cancelling from another thread.
+//! Tests of recipes by spectrum: mixtures are found again from their own reflectance, limits hold,
+//! and what cannot be searched is refused. Also tests of the progress of a search, and of
+//! cancelling it from another thread.
 
 use std::thread;
 use std::time::{Duration, Instant};
@@ -61,11 +60,11 @@ fn a_mixture_is_found_again_from_its_own_spectrum() {
             assert!(rms < 1e-3 && (rms - best.distance).abs() < 1e-9, "{recipe:?}: {best:?}");
             assert!(best.delta_e.iter().all(|d| *d < 0.01), "{recipe:?}: {best:?}");
             assert!(best.metamerism.iter().all(|m| m.unwrap() < 0.01), "{recipe:?}: {best:?}");
-            let told = shares(&library, best);
-            assert_eq!(told.len(), recipe.len(), "{told:?}");
+            let found_shares = shares(&library, best);
+            assert_eq!(found_shares.len(), recipe.len(), "{found_shares:?}");
             for (name, share) in recipe {
-                let near = told.iter().find(|(known, _)| known == name);
-                assert!(near.is_some_and(|(_, s)| (s - share).abs() < 1e-3), "{told:?}");
+                let near = found_shares.iter().find(|(known, _)| known == name);
+                assert!(near.is_some_and(|(_, s)| (s - share).abs() < 1e-3), "{found_shares:?}");
             }
         }
     }
@@ -88,8 +87,11 @@ fn a_film_is_found_again_with_its_thickness() {
     let best = &found.recipes[0];
     assert!(best.distance < 1e-3, "{best:?}");
     assert!((best.thickness.unwrap() - 0.7).abs() < 1e-3, "{best:?}");
-    let told = shares(&library, best);
-    assert!(told[0].0 == "Viridian" && (told[0].1 - 0.6).abs() < 1e-3, "{told:?}");
+    let found_shares = shares(&library, best);
+    assert!(
+        found_shares[0].0 == "Viridian" && (found_shares[0].1 - 0.6).abs() < 1e-3,
+        "{found_shares:?}"
+    );
 }
 
 #[test]

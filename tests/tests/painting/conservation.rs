@@ -85,10 +85,10 @@ fn ten_thousand_substeps_keep_every_pigment_to_the_quantum() {
         assert_eq!(totals(&mut painting, &brushes), wanted, "dried on {}", painting.backend());
         let left: Vec<_> = brushes.iter().map(|&b| painting.brush_paint(b).unwrap()).collect();
         let left: u64 = left.iter().flat_map(Layer::totals).sum();
-        let told: f64 = painting.wet_totals_mm().unwrap().iter().sum();
+        let total: f64 = painting.wet_totals_mm().unwrap().iter().sum();
         let left = left as f64 * mm_from_quanta(1, CELL_MM);
-        assert!((told - left).abs() < 1e-6, "{told} mm wet, {left} on the brushes");
-        assert!(wet.iter().sum::<f64>() > told, "drying did not reduce wet paint");
+        assert!((total - left).abs() < 1e-6, "{total} mm wet, {left} on the brushes");
+        assert!(wet.iter().sum::<f64>() > total, "drying did not reduce wet paint");
         tell(&format!(
             "{}: {substeps} sub-steps, {strokes} strokes, kept {wanted:?}",
             painting.backend()

@@ -301,8 +301,8 @@ fn a_heap_at_the_edge_is_cut_there_and_touches_only_its_tiles() {
         let (_, rect) = heap(&mut painting);
         let mut tiles = TileSet::default();
         tiles.insert(rect.grown(2, painting.bounds()));
-        let told = painting.refresh(false).unwrap();
-        assert!(told.iter().all(|tile| tiles.iter().any(|one| one == tile)), "{told:?}");
+        let refreshed = painting.refresh(false).unwrap();
+        assert!(refreshed.iter().all(|tile| tiles.iter().any(|one| one == tile)), "{refreshed:?}");
         let (used, _) = painting.undo_bytes();
         assert!(used <= tiles.len() as u64 * TILE_BYTES, "{used} bytes");
         assert!(painting.undo().unwrap(), "no undo");

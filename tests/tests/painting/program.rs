@@ -83,10 +83,10 @@ fn the_same_script_gives_the_same_bytes() {
             "--json",
         ]);
         done(&run);
-        let told = run.json();
-        assert_eq!(told["canvas"], serde_json::json!([120, 80]));
-        assert_eq!((told["actions"].as_u64(), told["strokes"].as_u64()), (Some(9), Some(3)));
-        assert!(told["substeps"].as_u64() > Some(100), "{told}");
+        let json = run.json();
+        assert_eq!(json["canvas"], serde_json::json!([120, 80]));
+        assert_eq!((json["actions"].as_u64(), json["strokes"].as_u64()), (Some(9), Some(3)));
+        assert!(json["substeps"].as_u64() > Some(100), "{json}");
     }
     for (a, b) in files[0].iter().zip(&files[1]) {
         let a = std::fs::read(a).unwrap();
@@ -220,8 +220,8 @@ fn pigment_maps_sum_all_layers() {
 
 #[test]
 fn what_the_adapter_is_can_be_read_by_programs() {
-    let told = impasto(&["gpu", "--json"]).json();
-    assert!(told["adapters"].is_array() && told["why"].is_string(), "{told}");
+    let json = impasto(&["gpu", "--json"]).json();
+    assert!(json["adapters"].is_array() && json["why"].is_string(), "{json}");
 }
 
 fn refused(arguments: &[&str], wanted: &str) {
@@ -240,10 +240,10 @@ fn a_timelapse_ends_with_the_picture_and_is_continued() {
     let base = ["paint", &script, "--backend", "cpu"];
     let run = impasto(&[&base[..], &every, &["--picture", &png, "--json"]].concat());
     assert_eq!(run.status, 0, "{}", run.err);
-    let told = run.json();
-    assert_eq!((told["frames"].as_u64(), told["frames_found"].as_u64()), (Some(6), Some(0)));
-    assert_eq!(told["size"], serde_json::json!([120, 80]));
-    assert_eq!(told["actions"].as_u64(), Some(9), "the picture is painted too");
+    let json = run.json();
+    assert_eq!((json["frames"].as_u64(), json["frames_found"].as_u64()), (Some(6), Some(0)));
+    assert_eq!(json["size"], serde_json::json!([120, 80]));
+    assert_eq!(json["actions"].as_u64(), Some(9), "the picture is painted too");
     let whole = std::fs::read(&gif).unwrap();
     let decoder = GifDecoder::new(std::io::Cursor::new(&whole)).unwrap();
     let decoded = decoder.into_frames().collect_frames().unwrap();
@@ -612,7 +612,7 @@ fn program(arguments: &[&str]) -> Command {
 }
 
 /// Runs `command` and returns its stderr: output, exit status and errors of the program.
-fn told(mut command: Command) -> String {
+fn output_of(mut command: Command) -> String {
     String::from_utf8_lossy(&command.output().unwrap().stderr).into_owned()
 }
 
@@ -640,7 +640,7 @@ fn a_painter_killed_at_any_moment_leaves_the_old_file_or_the_new_one_whole() {
     let short = script(folder, "", "");
     let saved_name = saved.to_str().unwrap();
     assert!(
-        told(program(&["paint", &short, "--backend", "cpu", "--output", saved_name]))
+        output_of(program(&["paint", &short, "--backend", "cpu", "--output", saved_name]))
             .contains("status 0")
     );
     let old = std::fs::read(&saved).unwrap();
@@ -686,7 +686,7 @@ fn without_a_driver_the_processor_paints_unless_a_device_is_asked_for() {
         for variable in ["VK_ICD_FILENAMES", "VK_DRIVER_FILES"] {
             run.env(variable, "/nowhere/driver.json");
         }
-        (told(run), Path::new(&picture).exists())
+        (output_of(run), Path::new(&picture).exists())
     });
     let (refused, written) = refused;
     assert!(refused.contains("status 2"), "{refused}");

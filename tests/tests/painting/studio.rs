@@ -276,12 +276,12 @@ pub(crate) fn live(
     let count = random.random_range(1..12);
     let samples = wander(random, count);
     session.begin_stroke(on, brush).unwrap();
-    let mut told = samples.as_slice();
-    while !told.is_empty() {
-        let (piece, rest) = told.split_at(random.random_range(1..=told.len()));
+    let mut remaining = samples.as_slice();
+    while !remaining.is_empty() {
+        let (piece, rest) = remaining.split_at(random.random_range(1..=remaining.len()));
         session.extend(piece).unwrap();
         session.advance(random.random_range(0..60)).unwrap();
-        told = rest;
+        remaining = rest;
     }
     if random.random_bool(0.5) {
         session.lift().unwrap();

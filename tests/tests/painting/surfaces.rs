@@ -290,23 +290,23 @@ fn what_cannot_be_is_told_as_in_a_script() {
     let mut session = set_up(&header(), BACKENDS[0]).unwrap();
     loaded(&mut session);
     let before = whole(&mut session);
-    let mut told = |action: Action| {
+    let mut refusal = |action: Action| {
         let error = session.apply(&action).unwrap_err();
         (error.to_string(), error.hint().map(|hint| hint.to_string()).unwrap_or_default())
     };
-    let (error, hint) = told(load("flatt", "Lead White", 0.1));
+    let (error, hint) = refusal(load("flatt", "Lead White", 0.1));
     assert_eq!((&*error, &*hint), ("brush: one of `brushes`, found `flatt`", "did you mean flat?"));
-    let (error, hint) = told(load("flat", "Lead Wite", 0.1));
+    let (error, hint) = refusal(load("flat", "Lead Wite", 0.1));
     assert_eq!(error, "recipe: a pigment of the library, found `Lead Wite`");
     assert_eq!(hint, "did you mean Lead White?");
-    let (error, hint) = told(load("flat", "Ultramarine", 0.1));
+    let (error, hint) = refusal(load("flat", "Ultramarine", 0.1));
     assert_eq!(error, "recipe: pigments of the palette, found `Ultramarine`");
     assert!(hint.contains("Lead White, Chrome Yellow"), "{hint}");
-    let (error, _) = told(load("flat", "Lead White", f64::NAN));
+    let (error, _) = refusal(load("flat", "Lead White", f64::NAN));
     assert_eq!(error, "amount_mm: 0 to 100, found `NaN`");
-    let (error, hint) = told(load("flat", "Lead White", 99.0));
+    let (error, hint) = refusal(load("flat", "Lead White", 99.0));
     assert!(error.contains("holds") && hint.contains("wipe"), "{error} {hint}");
-    let (error, _) = told(Action::Save { path: "a.exr".to_owned() });
+    let (error, _) = refusal(Action::Save { path: "a.exr".to_owned() });
     assert_eq!(error, "a session saves nothing");
     let mut samples = along(&[(1.0, 1.0), (9.0, 9.0)], 0.5);
     samples[1].pressure = 1.5;

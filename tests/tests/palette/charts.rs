@@ -159,13 +159,13 @@ fn a_measured_share_stands_in_its_place_with_the_mixture_of_that_share() {
     let measured = oils.measured(&palette);
     let pair = (find(&oils, "Prussian Blue"), find(&oils, "Zinc White"));
     let steps = graded(&palette, pair, &measured, &rules).steps;
-    let told: Vec<(&str, f64)> =
+    let reported: Vec<(&str, f64)> =
         steps.iter().filter_map(|s| Some((s.sample.as_deref()?, s.share))).collect();
-    let names: Vec<&str> = told.iter().map(|(name, _)| *name).collect();
+    let names: Vec<&str> = reported.iter().map(|(name, _)| *name).collect();
     assert_eq!(names, ["13A", "13F", "13C", "13B", "13G", "07A"]);
     assert_near(
         "shares",
-        &told.iter().map(|t| t.1).collect::<Vec<_>>(),
+        &reported.iter().map(|t| t.1).collect::<Vec<_>>(),
         &[0.0, 0.01, 0.493, 0.937, 0.989, 1.0],
         1e-9,
     );

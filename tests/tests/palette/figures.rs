@@ -100,10 +100,10 @@ fn figures_show_the_colors_and_tell_the_numbers_that_were_computed() {
     assert!(outside > 0, "some mixtures of the oils lie outside sRGB");
     assert_eq!(drawn.svg.matches(&notch).count(), outside);
 
-    let told = &figure(&report, "hiding-power").data.rows;
+    let rows = &figure(&report, "hiding-power").data.rows;
     for power in hiding_powers(&palette) {
         let name = Cell::from(palette.label(power.paint));
-        let row = told.iter().find(|row| row[0] == name).unwrap();
+        let row = rows.iter().find(|row| row[0] == name).unwrap();
         assert_eq!(row[1], Cell::from(power.hides.thickness()));
     }
 

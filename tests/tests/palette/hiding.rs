@@ -174,17 +174,17 @@ fn strength_is_k_over_s_of_one_part_in_nine_of_white_by_hand() {
 fn the_parts_of_white_make_the_depth_they_promise() {
     let oils = Oils::fitted();
     let palette = oils.palette();
-    let mut told = 0;
+    let mut deep = 0;
     for strength in tinting_strengths(&palette, None) {
         let Some(parts) = strength.white_parts else { continue };
-        told += 1;
+        deep += 1;
         let mixture = palette.mixture(&palette.tint(strength.paint, parts));
         let nm = strength.wavelength_nm;
         let at = palette.library().grid.wavelengths_nm().position(|w| w == nm).unwrap();
         let depth = mixture.absorption[at] / mixture.scattering[at];
         assert_near(palette.label(strength.paint), &[depth], &[1.0], 1e-9);
     }
-    assert!(told >= 12, "{told} paints of the oils are deeper than K/S = 1");
+    assert!(deep >= 12, "{deep} paints of the oils are deeper than K/S = 1");
 }
 
 #[test]

@@ -148,9 +148,9 @@ fn too_many_pixels_are_refused_before_they_are_read() {
     head.extend(&whole[33..]);
     let error = Photograph::from_bytes("wall.png", &head).unwrap_err();
     assert!(matches!(error, PhotographError::TooLarge { .. }), "{error}");
-    let told =
+    let message =
         format!("wall.png: a photograph has {MOST_PIXELS} pixels at most, found `20000 x 20000`");
-    assert_eq!(error.to_string(), told);
+    assert_eq!(error.to_string(), message);
 }
 
 fn crc(bytes: &[u8]) -> u32 {

@@ -100,9 +100,9 @@ fn separating_writes_maps_and_tells_the_error_of_the_library() {
     for file in ["separation.maps.json", "separation.recipe.csv"] {
         assert!(maps.join(file).is_file(), "{file}");
     }
-    let told = run.json();
+    let json = run.json();
     let written = std::fs::read_to_string(maps.join("separation.errors.json")).unwrap();
-    assert_eq!(told, serde_json::from_str::<serde_json::Value>(&written).unwrap());
+    assert_eq!(json, serde_json::from_str::<serde_json::Value>(&written).unwrap());
 
     let library = &STUDIO.library;
     let light = Light::named(library, "D65", "1931-2").unwrap();
@@ -121,8 +121,8 @@ fn separating_writes_maps_and_tells_the_error_of_the_library() {
     let target = black_compensated(&seen, separation.black());
     let made = rebuild_picture(separation.film(), &separation.separate(&target));
     let errors = ColorErrors::between(&separation, &target, &made);
-    assert_eq!(told["error"], serde_json::to_value(errors).unwrap());
-    assert_eq!(told["palette"][2], "Prussian Blue");
+    assert_eq!(json["error"], serde_json::to_value(errors).unwrap());
+    assert_eq!(json["palette"][2], "Prussian Blue");
 }
 
 #[test]
@@ -142,11 +142,11 @@ fn a_photograph_is_painted_and_its_strokes_paint_it_again() {
     ];
     let run = paint(&photo, &[options.concat(), vec!["--json", "--backend", "cpu"]].concat());
     assert_eq!(run.status, 0, "{}", run.err);
-    let told = run.json();
-    assert_eq!(told["canvas"], serde_json::json!([48, 36]));
-    assert_eq!(told["levels"][0]["size_mm"], 6.0, "coarse before fine");
-    assert!(told["levels"][1]["strokes"].as_u64() > Some(3), "{told}");
-    assert!(told["error"]["mean_in_gamut"].as_f64().unwrap() < 4.0, "{told}");
+    let json = run.json();
+    assert_eq!(json["canvas"], serde_json::json!([48, 36]));
+    assert_eq!(json["levels"][0]["size_mm"], 6.0, "coarse before fine");
+    assert!(json["levels"][1]["strokes"].as_u64() > Some(3), "{json}");
+    assert!(json["error"]["mean_in_gamut"].as_f64().unwrap() < 4.0, "{json}");
     let run = impasto(&["paint", &script, "--output", &again, "--backend", "cpu"]);
     assert_eq!(run.status, 0, "{}", run.err);
     let [first, again] = [first, again].map(|path| std::fs::read(path).unwrap());

@@ -289,7 +289,7 @@ struct Finished {
     session: PaintingSession,
     levels: Vec<LevelReport>,
     /// Numbers of strokes that were planned and painted, as reported.
-    told: (usize, usize),
+    counts: (usize, usize),
 }
 
 fn painted(plan: &Plan) -> Finished {
@@ -300,8 +300,8 @@ fn painted(plan: &Plan) -> Finished {
     let task = Task::default();
     let levels = painter.paint(&mut session, &mut script, &task).unwrap();
     let progress = task.progress();
-    let told = (progress.of as usize, progress.done as usize);
-    Finished { script, session, levels, told }
+    let counts = (progress.of as usize, progress.done as usize);
+    Finished { script, session, levels, counts }
 }
 
 fn replayed(text: &str) -> (Document, ReplayReport) {
@@ -360,7 +360,7 @@ fn the_recorded_strokes_paint_the_same_bit_for_bit() {
     let strokes = finished.script.actions.iter().filter(|a| a.kind() == "stroke").count();
     let laid: u64 = finished.levels.iter().map(|level| level.strokes).sum();
     assert!(strokes > 20, "{strokes} strokes");
-    assert_eq!((strokes, strokes), finished.told);
+    assert_eq!((strokes, strokes), finished.counts);
     let text = finished.script.to_json().unwrap();
     let (document, report) = replayed(&text);
     let wanted = finished.session.canvas_mut().document().unwrap();

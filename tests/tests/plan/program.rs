@@ -40,8 +40,8 @@ fn a_plan_names_recipes_that_can_be_weighed() {
         }
     }
     for (name, total) in totals {
-        let told = json["totals_g"][&name].as_f64().unwrap();
-        assert!((told - total).abs() < 1e-6, "{name}: {told} for {total}");
+        let reported = json["totals_g"][&name].as_f64().unwrap();
+        assert!((reported - total).abs() < 1e-6, "{name}: {reported} for {total}");
     }
     // 5 masstones, 2 tints each of 4 paints, 3 shades, and 3 mixtures of two colours.
     assert_eq!(swatches.len(), 5 + 8 + 3 + 3);

@@ -10,13 +10,13 @@ fn without_readings_only_the_library_is_drawn() {
     let work = Work::new();
     let run = work.report("out", &["--json"]);
     assert_eq!(run.status, 0, "{}", run.err);
-    let told = run.json();
+    let json = run.json();
     let names: Vec<&str> =
-        told["figures"].as_array().unwrap().iter().map(|f| f["name"].as_str().unwrap()).collect();
+        json["figures"].as_array().unwrap().iter().map(|f| f["name"].as_str().unwrap()).collect();
     assert!(names.contains(&"absorption") && names.contains(&"light"), "{names:?}");
     assert!(!names.contains(&"samples") && !names.contains(&"errors"), "{names:?}");
-    assert!(told["samples"].is_null() && told["left_out"].is_null(), "{told}");
-    for figure in told["figures"].as_array().unwrap() {
+    assert!(json["samples"].is_null() && json["left_out"].is_null(), "{json}");
+    for figure in json["figures"].as_array().unwrap() {
         for ending in ["svg", "png", "csv"] {
             let path = figure[ending].as_str().unwrap();
             assert!(std::path::Path::new(path).is_file(), "{path}");
@@ -155,10 +155,10 @@ fn absolute_amounts_are_held_against_their_films() {
     assert_eq!(fit.status, 0, "{}", fit.err);
     let run = work.report("out", &[&csv, "--json"]);
     assert_eq!(run.status, 0, "{}", run.err);
-    let told = run.json();
-    assert_eq!(told["samples"], 178);
-    assert!(told["delta_e"]["mean"].as_f64().unwrap() < 0.1, "{told}");
-    assert!(told["left_out"]["mean"].as_f64().unwrap() < 0.2, "{told}");
+    let json = run.json();
+    assert_eq!(json["samples"], 178);
+    assert!(json["delta_e"]["mean"].as_f64().unwrap() < 0.1, "{json}");
+    assert!(json["left_out"]["mean"].as_f64().unwrap() < 0.2, "{json}");
     let parts = std::fs::read_to_string(work.path("out/figures/samples-3.svg")).unwrap();
     assert!(parts.contains("part 3 of 3"), "a printed page holds 84");
     let header = std::fs::read_to_string(work.path("out/figures/absorption.csv")).unwrap();

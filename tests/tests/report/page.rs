@@ -232,11 +232,11 @@ fn the_numbers_of_a_figure_are_those_of_fit_and_validate() {
     let csv = work.text("readings.csv");
     let errors = text("errors", "csv");
     for (verb, column) in [("fit", "Fitted [CIEDE2000]"), ("validate", "Left out [CIEDE2000]")] {
-        let told = suite::program::impasto(&[verb, &csv, "--json"]).json();
+        let json = suite::program::impasto(&[verb, &csv, "--json"]).json();
         let mut reader = csv::Reader::from_reader(errors.as_bytes());
         let place = reader.headers().unwrap().iter().position(|title| title == column).unwrap();
         let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
-        let samples = told["per_sample"].as_array().unwrap();
+        let samples = json["per_sample"].as_array().unwrap();
         assert!(samples.len() > 10, "{verb}: {} samples", samples.len());
         for sample in samples {
             let name = sample["sample"].as_str().unwrap();

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use crate::{SOUND, refused};
 
 /// The error message of [`SOUND`] with `from` replaced by `to`, without the file name.
-fn told(from: &str, to: &str) -> String {
+fn error_after(from: &str, to: &str) -> String {
     refused(from, to).to_string().split_off("a.json: ".len())
 }
 
@@ -27,9 +27,9 @@ fn numbers_out_of_range_are_told_with_action_sample_and_field() {
         (last, "[0.5, 0, 0, 0, 0, 0, 1e5]", "twist: -3600 to 3600, found `100000`"),
     ];
     for (from, to, wanted) in cases {
-        assert_eq!(told(from, to), format!("{sample}{wanted}"));
+        assert_eq!(error_after(from, to), format!("{sample}{wanted}"));
     }
-    let back = told("[[0, 10, 10, 0.2], [0.5,", "[[2, 10, 10, 0.2], [0.5,");
+    let back = error_after("[[0, 10, 10, 0.2], [0.5,", "[[2, 10, 10, 0.2], [0.5,");
     assert_eq!(back, format!("{sample}seconds: not before the last sample's 2, found `0.5`"));
     let cases = [
         (
@@ -78,7 +78,7 @@ fn numbers_out_of_range_are_told_with_action_sample_and_field() {
         ),
     ];
     for (from, to, wanted) in cases {
-        assert_eq!(told(from, to), wanted);
+        assert_eq!(error_after(from, to), wanted);
     }
 }
 
@@ -161,7 +161,7 @@ fn json_that_does_not_fit_is_told_with_line_and_column() {
 
 #[test]
 fn other_formats_versions_and_encodings_are_told() {
-    let error = told("\"format\": \"strokes\"", "\"format\": \"scribbles\"");
+    let error = error_after("\"format\": \"strokes\"", "\"format\": \"scribbles\"");
     assert_eq!(error, "`format` must be \"strokes\", found `\"scribbles\"`");
     let error = refused("\"version\": 1", "\"version\": 2");
     let wanted = "a.json: this program reads strokes up to version 1, found `2`";

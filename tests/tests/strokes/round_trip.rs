@@ -230,8 +230,8 @@ fn what_may_be_left_out_has_its_usual_value() {
 
 fn resolved(from: &str, to: &str) -> Result<paint::strokes::Resolved, (String, String)> {
     let script = StrokeScript::from_json("a.json", SOUND.replace(from, to).as_bytes()).unwrap();
-    let told = script.resolve(&library());
-    told.map_err(|error| {
+    let resolved = script.resolve(&library());
+    resolved.map_err(|error| {
         (error.to_string(), error.hint().map(|hint| hint.to_string()).unwrap_or_default())
     })
 }
@@ -297,7 +297,7 @@ fn mixed() -> String {
         .replace("\"library\": \"oils.json\"", &["\"library\": \"oils.json\"", mixing].join(", "))
 }
 
-fn told(text: &str) -> (String, String) {
+fn error_and_hint(text: &str) -> (String, String) {
     let error = StrokeScript::from_json("a.json", text.as_bytes()).unwrap_err();
     let text = error.to_string();
     (
@@ -343,13 +343,14 @@ fn numbers_of_heaps_and_shine_are_told_with_their_place() {
         ("{\"W\": 1}", "{}", "recipe: parts that sum to more than 0, found `0`"),
     ];
     for (from, to, wanted) in cases {
-        assert_eq!(told(&changed(from, to)).0, format!("{first}{wanted}"));
+        assert_eq!(error_and_hint(&changed(from, to)).0, format!("{first}{wanted}"));
     }
-    let (error, _) = told(&changed("\"strength\": 0.3", "\"strength\": 101"));
+    let (error, _) = error_and_hint(&changed("\"strength\": 0.3", "\"strength\": 101"));
     assert_eq!(error, "action 19 (gloss), wet.strength: 0 to 100, found `101`");
-    let (error, _) = told(&changed("\"exponent\": 70", "\"exponent\": -1"));
+    let (error, _) = error_and_hint(&changed("\"exponent\": 70", "\"exponent\": -1"));
     assert_eq!(error, "action 19 (gloss), wet.exponent: 0 to 1000000, found `-1`");
-    let (error, _) = told(&changed("{\"scrape\": {}}", "{\"scrape\": {\"on\": \"wall\"}}"));
+    let (error, _) =
+        error_and_hint(&changed("{\"scrape\": {}}", "{\"scrape\": {\"on\": \"wall\"}}"));
     assert!(error.contains("unknown variant `wall`, expected `canvas` or `palette`"), "{error}");
 }
 
@@ -359,7 +360,7 @@ fn there_is_a_palette_only_where_it_is_described() {
         "\"mixing\": {\"width_mm\": 64, \"height_mm\": 42, \"ground\": {\"kind\": \"panel\"}},",
         "",
     );
-    let (error, hint) = told(&bare);
+    let (error, hint) = error_and_hint(&bare);
     let wanted =
         "action 14 (squeeze), on: the canvas, as there is no palette to mix on, found `palette`";
     assert_eq!(error, wanted);
@@ -371,15 +372,16 @@ fn there_is_a_palette_only_where_it_is_described() {
         ),
         ("{\"scrape\": {\"on\": \"palette\"}}", "scrape"),
     ] {
-        let (error, _) = told(&SOUND.replace(SAVE, action));
+        let (error, _) = error_and_hint(&SOUND.replace(SAVE, action));
         assert!(error.starts_with(&format!("action 13 ({kind}), on: the canvas")), "{error}");
     }
-    let (error, hint) = told(&changed("\"width_mm\": 64,", "\"width_mm\": 64, \"cell_mm\": 0.2,"));
+    let (error, hint) =
+        error_and_hint(&changed("\"width_mm\": 64,", "\"width_mm\": 64, \"cell_mm\": 0.2,"));
     assert_eq!(error, "mixing.cell_mm: that of the canvas, 0.1, found `0.2`");
     assert_eq!(hint, "\"cell_mm\": 0.1");
-    let (error, _) = told(&changed("\"height_mm\": 42", "\"height_mm\": -42"));
+    let (error, _) = error_and_hint(&changed("\"height_mm\": 42", "\"height_mm\": -42"));
     assert_eq!(error, "mixing.height_mm: 0.001 to 1000000, found `-42`");
-    let (error, _) = told(&changed("\"height_mm\": 42", "\"height_mm\": 42e4"));
+    let (error, _) = error_and_hint(&changed("\"height_mm\": 42", "\"height_mm\": 42e4"));
     assert!(error.starts_with("mixing: at most 67108864 cells"), "{error}");
 }
 
@@ -466,12 +468,12 @@ fn another_painting_is_refused() {
 fn a_start_is_a_painting_with_a_light_of_its_own() {
     let text = continue_from().to_json().unwrap();
     for path in ["", "study.png", "a\\nb.exr"] {
-        let (error, _) = told(&text.replace("before/study.exr", path));
+        let (error, _) = error_and_hint(&text.replace("before/study.exr", path));
         assert!(error.starts_with("start: the path of a painting"), "{error}");
     }
     let lit = "\"licence\": \"\",\n  \"lighting\": {\"illuminant\": \"A\", \"observer\": \"1931-2\", \
         \"azimuth_deg\": 0, \"elevation_deg\": 40, \"ambient\": 0, \"relief\": 1}";
-    let (error, hint) = told(&text.replace("\"licence\": \"\"", lit));
+    let (error, hint) = error_and_hint(&text.replace("\"licence\": \"\"", lit));
     assert!(error.starts_with("lighting: left out with `start`"), "{error}");
     assert_eq!(hint, "leave `lighting` out");
 }

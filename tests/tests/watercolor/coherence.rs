@@ -198,10 +198,10 @@ fn turntable() {
         [("ball", Mesh::sphere(turn.triangles)), ("knot", Mesh::torus_knot(turn.triangles))]
     {
         let (features, particles) = measured(mesh, &turn, &[6, 12, 24, 48, 64, 96]);
-        let told =
+        let label =
             format!("{name}: flow, dispersion {features:.3?}; 6 .. 64 particles {particles:.3?}");
-        let _ = writeln!(std::io::stderr(), "{told}");
-        assert!(features.iter().all(|&ratio| ratio < 0.25), "{told}");
+        let _ = writeln!(std::io::stderr(), "{label}");
+        assert!(features.iter().all(|&ratio| ratio < 0.25), "{label}");
     }
 }
 
@@ -251,7 +251,7 @@ fn spectrum(noise: &Field<f32>) -> Vec<f64> {
 }
 
 /// Mean frequency in cycles per pixel, and the share of the power above `limit` cycles per pixel.
-fn told(power: &[f64], limit: f64) -> [f64; 2] {
+fn mean_and_share_above(power: &[f64], limit: f64) -> [f64; 2] {
     let all: f64 = power.iter().sum();
     let [mut mean, mut above] = [0.0; 2];
     for (i, power) in power.iter().enumerate() {
@@ -271,7 +271,7 @@ fn noise_of_features_has_no_wave_shorter_than_its_finest_octave() {
         let noise = FeatureNoise { largest_px, octaves, persistence: 0.8, coverage: 4.0 };
         let field = subject.of_features(&bare, noise);
         let finest = f64::from(largest_px) / f64::from(1 << (octaves - 1));
-        let [_, above] = told(&spectrum(&field), 1.5 / finest);
+        let [_, above] = mean_and_share_above(&spectrum(&field), 1.5 / finest);
         assert!(above < 0.01, "{noise:?}: {above}");
         let [mean, spread] = spread(&field, &bare.depth);
         assert!((mean - 0.5).abs() < 0.06, "{noise:?}: mean {mean}");
@@ -279,7 +279,7 @@ fn noise_of_features_has_no_wave_shorter_than_its_finest_octave() {
     }
 }
 
-/// Mean frequency and share above `limit` (see [`told`]) at nine zooms from 1 to 16, each for the
+/// Mean frequency and share above `limit` (see [`mean_and_share_above`]) at nine zooms from 1 to 16, each for the
 /// summed spectra of six seeds. `noise` makes a picture from a zoom and a seed.
 fn under_zoom(noise: impl Fn(f32, u64) -> Field<f32>, limit: f64) -> Vec<[f64; 2]> {
     let zooms = (0..9).map(|step| 2.0f32.powf(step as f32 / 2.0));
@@ -290,7 +290,7 @@ fn under_zoom(noise: impl Fn(f32, u64) -> Field<f32>, limit: f64) -> Vec<[f64; 2
                 let other = spectrum(&noise(zoom, seed));
                 power.iter_mut().zip(other).for_each(|(power, other)| *power += other);
             }
-            told(&power, limit)
+            mean_and_share_above(&power, limit)
         })
         .collect()
 }
@@ -327,11 +327,12 @@ fn frequency_holds_while_the_model_comes_nearer() {
         for (name, all, tolerance) in
             [("features", of_features, 0.08), ("particles", of_particles, 0.15)]
         {
-            let mean = all.iter().map(|told| told[0]).sum::<f64>() / all.len() as f64;
-            let worst = all.iter().map(|told| (told[0] / mean - 1.0).abs()).fold(0.0, f64::max);
+            let mean = all.iter().map(|figures| figures[0]).sum::<f64>() / all.len() as f64;
+            let worst =
+                all.iter().map(|figures| (figures[0] / mean - 1.0).abs()).fold(0.0, f64::max);
             // Measured 0.04 and 0.09.
             assert!(worst < tolerance, "{triangles}, {name}: {worst} {all:?}");
-            assert!(all.iter().all(|told| told[1] < 0.01), "{triangles}, {name}: {all:?}");
+            assert!(all.iter().all(|figures| figures[1] < 0.01), "{triangles}, {name}: {all:?}");
         }
     }
 }

@@ -234,11 +234,11 @@ fn binary_gltf_and_strips_and_fans() {
 #[track_caller]
 fn refused(files: &[(&str, &[u8])], wanted: &[&str]) {
     let error = opened(files).unwrap_err();
-    let told = error.to_string();
+    let message = error.to_string();
     for words in wanted.iter().chain(&[files[0].0]) {
-        assert!(told.contains(words), "no `{words}` in: {told}");
+        assert!(message.contains(words), "no `{words}` in: {message}");
     }
-    assert!(!told.contains('\n') && error.hint().is_some(), "{told}");
+    assert!(!message.contains('\n') && error.hint().is_some(), "{message}");
 }
 
 const POSITIONS: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
@@ -286,8 +286,8 @@ fn materials_and_textures_of_obj_files() {
         ("newmtl red\nmap_Kd a.mtl\n", "the texture `a.mtl`"),
     ] {
         let error = opened(&[("a.obj", &obj), ("a.mtl", mtl.as_bytes())]).unwrap_err();
-        let told = error.to_string();
-        assert!(told.contains(wanted), "no `{wanted}` in: {told}");
+        let message = error.to_string();
+        assert!(message.contains(wanted), "no `{wanted}` in: {message}");
     }
 }
 

@@ -115,7 +115,7 @@ fn cast(mesh: &Mesh, camera: &Camera, (width, height): (usize, usize), at: [f64;
 #[test]
 fn every_pixel_shows_the_triangle_that_a_ray_meets_first() {
     let size = (97, 61);
-    let mut told = 0;
+    let mut agreeing = 0;
     let mut empty = 0;
     for seed in 0..6 {
         let mesh = random_triangles(60, seed);
@@ -130,14 +130,17 @@ fn every_pixel_shows_the_triangle_that_a_ray_meets_first() {
                 let wanted = ray(0.0, 0.0);
                 if around.iter().all(|&[dx, dy]| ray(dx, dy) == wanted) {
                     assert_eq!(found[(x, y)].triangle, wanted, "seed {seed}, {x}, {y}");
-                    told += 1;
+                    agreeing += 1;
                     empty += usize::from(wanted == NO_TRIANGLE);
                 }
             }
         }
     }
     let all = 6 * size.0 * size.1;
-    assert!(told > all * 9 / 10 && empty > 10 && empty < all / 2, "{told} {empty} of {all}");
+    assert!(
+        agreeing > all * 9 / 10 && empty > 10 && empty < all / 2,
+        "{agreeing} {empty} of {all}"
+    );
 }
 
 #[test]
@@ -431,9 +434,12 @@ fn bad_paths_are_refused_with_their_place() {
         let text = PATH.replacen(from, to, 1);
         assert_ne!(text, PATH);
         let error = CameraPath::from_text("a path", &text).unwrap_err();
-        let told = error.to_string();
-        assert!(told.contains(wanted) && told.contains("a path"), "no `{wanted}` in: {told}");
-        assert!(!told.contains('\n') && error.hint().is_some());
+        let message = error.to_string();
+        assert!(
+            message.contains(wanted) && message.contains("a path"),
+            "no `{wanted}` in: {message}"
+        );
+        assert!(!message.contains('\n') && error.hint().is_some());
     }
     assert!(CameraPath::from_text("a path", "frames = 3").is_err());
     let error = CameraPath::open(std::path::Path::new("no/such.toml")).unwrap_err();

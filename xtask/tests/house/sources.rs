@@ -39,8 +39,8 @@ fn every_shipped_table_has_its_source() {
     let sources = text("spectra/data/SOURCES.md");
     for path in files_below("spectra/data") {
         let inside = path.strip_prefix("spectra/data/").unwrap();
-        let told = inside == "SOURCES.md" || sources.contains(&format!("`{inside}`"));
-        assert!(told, "{path} is not in SOURCES.md");
+        let is_listed = inside == "SOURCES.md" || sources.contains(&format!("`{inside}`"));
+        assert!(is_listed, "{path} is not in SOURCES.md");
     }
 }
 
@@ -51,8 +51,8 @@ fn every_measurement_has_its_source() {
         let stem = name.split('.').next().unwrap();
         let page = text(&format!("measurements/{stem}.md"));
         // A library is made from the table of the same stem and shares its page.
-        let told = name.ends_with(".pigments.json") || page.contains(name);
-        assert!(told, "measurements/{stem}.md does not name {name}");
+        let is_listed = name.ends_with(".pigments.json") || page.contains(name);
+        assert!(is_listed, "measurements/{stem}.md does not name {name}");
     }
 }
 
@@ -72,8 +72,8 @@ fn every_golden_file_says_how_it_was_made_and_is_compared() {
     for path in golden.iter().filter(|path| path.ends_with(".json")) {
         let file: serde_json::Value = serde_json::from_str(&text(path)).unwrap();
         for key in ["command", "package", "method"] {
-            let told = file[key].as_str().is_some_and(|words| !words.is_empty());
-            assert!(told, "{path}: {key}");
+            let is_stated = file[key].as_str().is_some_and(|words| !words.is_empty());
+            assert!(is_stated, "{path}: {key}");
         }
         let tolerance = file["tolerance"].as_f64();
         assert!(tolerance.is_some_and(|t| t > 0.0 && t < 1e-3), "{path}: {tolerance:?}");

@@ -393,12 +393,14 @@ impl ColorTable {
     }
 }
 
-/// Width of the column of names of which the longest has this many letters, beside `taken` others.
+/// Width of the column of names. The longest name has `longest` letters, and the other columns take
+/// `taken`.
 fn name_width(longest: usize, taken: usize) -> usize {
     longest.min(WIDEST.saturating_sub(taken)).max("sample".len())
 }
 
-/// A name in a column of this width, and a blank. A longer one has a line of its own.
+/// Pads a name to a column of this width, with a blank behind it. A longer name gets a line of its
+/// own.
 fn named(name: &str, width: usize) -> String {
     match name.chars().count() > width {
         true => format!("{name}\n{:width$} ", ""),

@@ -1,8 +1,5 @@
-//! `impasto fit`: fits a pigment library to measurements.
-//!
-//! Options that `fit` and `validate` share: measurement files and settings of the fit.
-//!
-//! JSON of `fit` and `validate`.
+//! `impasto fit` fits a pigment library to measurements. The options for measurement files and for
+//! the fit are here, because `validate` has them too, and so is the JSON of both.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -35,9 +32,9 @@ pub(crate) struct Fit {
     output: Option<PathBuf>,
     #[command(flatten)]
     provenance: RequestOptions<Provenance>,
-    /// Fit to one half of the mixtures alone: every second, from the first (0) or the second (1) on, with all
-    /// films of one pigment. What a painting of the one library looks like to the other shows how far it can be
-    /// believed
+    /// Fit to one half of the mixtures alone: every second one, from the first (0) or the second (1)
+    /// on, with all films of one pigment. To see how far maps can be believed, paint with the library
+    /// of one half and map with the other
     #[arg(long, value_name = "0|1", value_parser = clap::value_parser!(u8).range(0..=1))]
     half: Option<u8>,
     #[command(flatten)]
@@ -208,7 +205,8 @@ pub(super) fn fit_of_all(
     Ok(prepared.fit(&waiting.task("fitting"))?)
 }
 
-/// Whether the value of `--white` is the file of a reading, FILE or FILE#NAME, and no pigment.
+/// Whether the value of `--white` names the file of a reading (FILE or FILE#NAME) and not a
+/// pigment.
 fn is_reading(text: &str) -> bool {
     Path::new(split_file_and_name(text).0).is_file()
 }

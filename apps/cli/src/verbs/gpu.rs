@@ -20,7 +20,7 @@ pub(crate) struct Gpu {
     /// Print JSON: used, with_backend_gpu (null where there is none), why, adapters
     #[arg(long)]
     json: bool,
-    /// Print the adapters as CSV; `use` tells which one paints, and which one would by --backend gpu
+    /// Print the adapters as CSV; `use` says which one paints, and which one would with --backend gpu
     #[arg(long, conflicts_with = "json")]
     csv: bool,
 }

@@ -54,7 +54,7 @@ pub(crate) struct Paint {
     /// With --from only the library
     #[arg(required_unless_present = "from", num_args = 1..=2, value_names = ["SCRIPT", "LIBRARY"])]
     words: Vec<PathBuf>,
-    /// The library, as it was named before
+    /// Old name of LIBRARY
     #[arg(long, value_name = "LIBRARY", hide = true)]
     library: Option<PathBuf>,
     #[command(flatten)]
@@ -175,7 +175,7 @@ impl Paint {
         Ok(Some((path, document, table)))
     }
 
-    /// The library that was named, else the one that the script names, else the default one.
+    /// The library that you name, else the one that the script names, else the default one.
     fn script_library(
         &self,
         script: &StrokeScript,

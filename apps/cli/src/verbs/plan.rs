@@ -1,6 +1,4 @@
-//! `impasto plan`: plans the swatches to prepare.
-//!
-//! Report of a plan as text.
+//! `impasto plan` plans the swatches to prepare, and prints the plan as text, CSV or JSON.
 
 use std::path::PathBuf;
 
@@ -36,12 +34,12 @@ pub(crate) struct Plan {
     /// none], then the pigments, whose names may be abbreviated with a library
     #[arg(required = true, value_name = "[LIBRARY] PIGMENT")]
     words: Vec<String>,
-    /// The white for tints, whose S is the unit
+    /// The white for tints. Its S is the unit
     #[arg(long, value_name = "NAME")]
     white: String,
     #[command(flatten)]
     request: RequestOptions<PlanRequest>,
-    /// The library, as it was named before
+    /// Old name of LIBRARY
     #[arg(long, value_name = "LIBRARY", hide = true)]
     prior: Option<PathBuf>,
     /// Readings of each film and card in the file

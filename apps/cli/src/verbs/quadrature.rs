@@ -49,9 +49,9 @@ pub(crate) struct Quadrature {
     csv: bool,
 }
 
-/// One mixture and several, in figures.
+/// Words for one mixture and for several.
 const MIXTURES: [&str; 2] = ["random mixture", "random mixtures"];
-/// One film over a ground and several, in figures.
+/// Words for one film over a ground and for several.
 const FILMS: [&str; 2] = ["film over a random ground", "films over random grounds"];
 
 impl Quadrature {

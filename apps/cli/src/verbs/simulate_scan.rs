@@ -33,7 +33,8 @@ pub(crate) struct SimulateScan {
     /// The folder of the truth [default: SCAN-truth.zarr]
     #[arg(long, value_name = "FOLDER")]
     truth: Option<PathBuf>,
-    /// Number of bands, evenly from 400 to 1000 nm, or over what the painting's library has of it
+    /// Number of bands, evenly from 400 to 1000 nm, or over the part of it that the painting's
+    /// library covers
     #[arg(long, value_name = "N", default_value_t = CameraSettings::default().bands)]
     bands: usize,
     /// Standard deviation of the blur in pixels
@@ -42,7 +43,7 @@ pub(crate) struct SimulateScan {
     /// Standard deviation of the shot noise at a reflectance of 1
     #[arg(long, value_name = "SD", default_value_t = CameraSettings::default().shot_noise)]
     shot_noise: f64,
-    /// Standard deviation of the noise of reading, in reflectance
+    /// Standard deviation of the readout noise, in reflectance
     #[arg(long, value_name = "SD", default_value_t = CameraSettings::default().read_noise)]
     read_noise: f64,
     /// Change of the white from the first to the last line, as a fraction
@@ -227,11 +228,11 @@ impl<'d> Painting<'d> {
         classes: &mut [u64],
     ) -> Result<()> {
         let columns = camera.scene().samples;
-        let told = camera.rows(rows.clone(), &|line| {
+        let scanned = camera.rows(rows.clone(), &|line| {
             (0..columns).flat_map(|x| self.exact.measured_reflectance(x, line)).collect()
         });
-        scan.add(&told.told)?;
-        let found = truth_rows(camera, self.parts, rows, told.mean, &|line| {
+        scan.add(&scanned.told)?;
+        let found = truth_rows(camera, self.parts, rows, scanned.mean, &|line| {
             (0..columns).flat_map(|x| self.seen(x, line)).collect()
         });
         for class in &found.class {
@@ -240,7 +241,8 @@ impl<'d> Painting<'d> {
         Ok(truth.add(&found)?)
     }
 
-    /// Parts of what is seen of a cell: of the pigments, of the layers, of the ground.
+    /// What you see at a cell, in shares: first of the pigments, then of the layers, then of the
+    /// ground.
     fn seen(&self, x: usize, y: usize) -> Vec<f64> {
         let seen = self.exact.seen(x, y);
         let pigments = self.pigments.iter().map(|&place| seen.pigments[place]);

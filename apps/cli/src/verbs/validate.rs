@@ -91,26 +91,28 @@ impl Validate {
         }
         if self.json {
             let seconds = start.elapsed().as_secs_f64();
-            let mut told = fit::timed(validation.errors_json(), seconds);
-            told["strength_free"] = json!(validation.errors.strength_free);
-            told["by_pigment"] = json!(validation.errors.by_pigment);
-            return console.json(&told);
+            let mut errors = fit::timed(validation.errors_json(), seconds);
+            errors["strength_free"] = json!(validation.errors.strength_free);
+            errors["by_pigment"] = json!(validation.errors.by_pigment);
+            return console.json(&errors);
         }
         console.warnings(&warnings)?;
         console.line(validation.report().to_string())
     }
 }
 
-/// Time of a fit without one mixture over that of the fit of all, whose estimates it reuses and whose
-/// standard deviations it lacks. Measured with the oils on two cores: 0.22; more cores need less.
+/// Time of a fit without one mixture divided by the time of the full fit. Such a fit starts from
+/// the estimates of the full fit, and computes no standard deviations. With the oils we measured
+/// 0.22 on two cores, and less on more cores.
 const REFIT: f64 = 0.25;
-/// Expected seconds of a validation from which groups are advised.
+/// If a validation is expected to take longer than this, in seconds, we advise to validate in
+/// groups.
 const LONG: f64 = 120.0;
 /// Number of groups that is advised.
 const FOLDS: usize = 10;
 
-/// Advice to leave out groups where leaving out mixtures one by one would take minutes, judged from the
-/// time of the fit of all samples.
+/// Advises to leave out groups if leaving out mixtures one by one would take minutes. We judge this
+/// by the time of the full fit.
 fn folds_advice(mixtures: usize, fit: Duration, by_groups: bool) -> Option<Remark> {
     let seconds = |fits: usize| REFIT * fit.as_secs_f64() * fits as f64;
     let long = !by_groups && mixtures > FOLDS && seconds(mixtures) > LONG;
@@ -130,13 +132,13 @@ mod tests {
 
     #[test]
     fn groups_are_advised_where_one_by_one_takes_minutes() {
-        let told = |mixtures, seconds, by_groups| {
+        let advised = |mixtures, seconds, by_groups| {
             folds_advice(mixtures, Duration::from_secs(seconds), by_groups)
         };
-        let advice = told(2000, 30, false).unwrap();
+        let advice = advised(2000, 30, false).unwrap();
         assert!(advice.text.contains("250 minutes"), "{advice:?}");
         assert!(format!("{advice:?}").contains("folds=10"), "{advice:?}");
-        assert!(told(2000, 30, true).is_none());
-        assert!(told(40, 1, false).is_none());
+        assert!(advised(2000, 30, true).is_none());
+        assert!(advised(40, 1, false).is_none());
     }
 }

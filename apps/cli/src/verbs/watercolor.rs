@@ -147,11 +147,11 @@ struct PigmentOptions {
     /// becomes its thickness
     #[arg(value_name = "LIBRARY", group = "library_of_paint")]
     pigments: Option<PathBuf>,
-    /// The library, as it was named before
+    /// Old name of LIBRARY
     #[arg(long = "pigments", value_name = "LIBRARY", hide = true, group = "library_of_paint")]
     pigments_before: Option<PathBuf>,
-    /// Up to eight pigments of the library, separated by commas [default: those that come nearest
-    /// to the picture's colours]
+    /// Up to eight pigments of the library, separated by commas [default: the ones nearest to the
+    /// picture's colours]
     #[arg(long, value_name = "PIGMENTS", requires = "library_of_paint")]
     palette: Vec<String>,
     /// Reflectance of the paper as measured: 0 to 1, or a file of spectra (FILE#SAMPLE)

@@ -54,7 +54,7 @@ pub struct SessionMeta {
 
 enum Content {
     Bytes(Vec<u8>),
-    /// The content of this file, which did not change.
+    /// The content did not change since it was written to this file.
     Unchanged(PathBuf),
 }
 

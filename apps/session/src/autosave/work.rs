@@ -201,7 +201,7 @@ pub(super) struct KeptRecording {
 /// The recording file of a running session.
 #[derive(Debug, Default)]
 pub(super) struct RecordingFile {
-    /// Number of recordings so far. Each gets names of its own from it.
+    /// Number of recordings so far. The file names of each recording contain its number.
     count: u64,
     now: Option<Written>,
 }

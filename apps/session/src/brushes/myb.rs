@@ -182,8 +182,8 @@ impl Import {
         let settings =
             StabiliserSettings { method: StabiliserMethod::Average, length, unit: LengthUnit::Mm };
         let used = settings.is_valid();
-        let told = if used { format!("average over {length:.1} mm") } else { "off".to_owned() };
-        self.taken.push(format!("slow_tracking: stabiliser, {told}"));
+        let meaning = if used { format!("average over {length:.1} mm") } else { "off".to_owned() };
+        self.taken.push(format!("slow_tracking: stabiliser, {meaning}"));
         used.then_some(settings)
     }
 
@@ -203,7 +203,7 @@ impl Import {
             self.meaningless.push("elliptical_dab_angle of a round".to_owned());
             return TwistUse::AsSet;
         }
-        let (twist, told) = if angle.input("direction").is_some() {
+        let (twist, meaning) = if angle.input("direction").is_some() {
             (TwistUse::Stroke, "turns across the stroke".to_owned())
         } else if angle.input("tilt_ascension").is_some() {
             (TwistUse::Device, "turns with the pen".to_owned())
@@ -211,7 +211,7 @@ impl Import {
             let degrees = angle.base.rem_euclid(180.0);
             (TwistUse::Fixed(degrees), format!("held at {degrees:.0} degrees"))
         };
-        self.taken.push(format!("elliptical_dab_angle: {told}"));
+        self.taken.push(format!("elliptical_dab_angle: {meaning}"));
         twist
     }
 }

@@ -49,9 +49,9 @@ fn dynamics_by_pressure_become_the_curve() {
     }
     // The size belongs to half pressure, where the dynamics add nothing.
     assert!((found.preset.brush.size_mm - 0.2 * 2.0_f64.exp()).abs() < 1e-9);
-    let told = &found.meaningless;
+    let meaningless = &found.meaningless;
     for name in ["radius_logarithmic by speed1", "opaque_multiply by pressure"] {
-        assert!(told.iter().any(|line| line == name), "{name} in {told:?}");
+        assert!(meaningless.iter().any(|line| line == name), "{name} in {meaningless:?}");
     }
     // If the radius has no dynamics, the dynamics of the opacity become the curve.
     let found = taken(&[base("radius_logarithmic", 2.0), opaque.to_owned()]);
@@ -90,8 +90,8 @@ fn every_setting_is_told() {
     let settings = names.map(|name| base(name, 0.4));
     let found = taken(&settings);
     for name in names {
-        let mut told = found.taken.iter().chain(&found.meaningless);
-        assert!(told.any(|line| line.starts_with(name)), "{name} of {found:?}");
+        let mut lines = found.taken.iter().chain(&found.meaningless);
+        assert!(lines.any(|line| line.starts_with(name)), "{name} of {found:?}");
     }
 }
 

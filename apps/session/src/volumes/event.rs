@@ -63,7 +63,7 @@ pub struct SceneRecording {
     pub subject: Option<PathBuf>,
     /// File of the library. It is `None` for the one that comes with the program.
     pub library: Option<PathBuf>,
-    /// Counts the changes that it includes.
+    /// Number of changes up to this script. A script with a higher number is newer.
     pub revision: u64,
 }
 

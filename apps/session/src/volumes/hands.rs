@@ -1,4 +1,4 @@
-//! Gestures on a scene, recorded as events.
+//! Records gestures on a scene as events of its script.
 
 use volumes::script::{Action, Dry, Recipe};
 

@@ -1,4 +1,5 @@
-//! Cameras and picked places of a script, and paint volumes in mm3 for the window.
+//! Converts parts of a script for the window: cameras, places that a script picks in a picture, and
+//! amounts of paint in mm3.
 
 use glam::Vec3;
 use graphics::camera::{Camera, Framing, PictureView};

@@ -36,10 +36,10 @@ pub(super) struct Materials {
 }
 
 impl Materials {
-    /// Files and pigments that a script names. The files are relative to `folder`, and errors show its `name` and
-    /// `text`. If it has no library, the palette is of the one that comes with the program. Fails
-    /// for a library that cannot be read, a pigment that it lacks, and the file of a lamp, because
-    /// the studio cannot use one here.
+    /// Files and pigments that a script names. The files are relative to `folder`, and errors show
+    /// its `name` and `text`. If the script names no library, the palette uses the one that comes
+    /// with the program. Fails for a library that cannot be read, for a pigment that it lacks, and
+    /// for the file of a lamp, because the studio cannot use one here.
     pub(super) fn of(
         script: &Script,
         (name, text): (&str, &str),

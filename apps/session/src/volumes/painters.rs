@@ -131,7 +131,7 @@ impl Painters {
         Ok(())
     }
 
-    /// Number of the pigments that a painter of this kind needs now.
+    /// Version of the pigments that a painter of this kind must have now.
     fn wanted(&self, kind: Kind) -> u64 {
         if kind == Kind::Drawing { 0 } else { self.version }
     }

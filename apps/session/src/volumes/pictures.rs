@@ -1,5 +1,5 @@
-//! Views of a scene: pictures, its painting, volumes, paint and colour at a place, and its
-//! script.
+//! What you can ask of a scene: pictures, its painting, what lies at a place of the picture, and
+//! its script.
 
 use glam::Vec3;
 use graphics::camera::Camera;
@@ -79,7 +79,7 @@ impl Scene {
             let found = found_at(self.timeline.now().world(), &hit, profile);
             (hit.place, found)
         });
-        told(found, srgb, self.materials.slots, &self.recorded.base().regions)
+        described(found, srgb, self.materials.slots, &self.recorded.base().regions)
     }
 
     /// The script as it would be saved, seen by `camera`. Fails if it is too long for a file.
@@ -143,10 +143,8 @@ pub(super) fn color_at(picture: &Field<[f32; 4]>, at: [f32; 2]) -> [u8; 3] {
     [red, green, blue].map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8)
 }
 
-/// The answer to the painter: what is at a place, if there is a surface, and the colour shown
-/// there.
-/// `slots` are the pigments of the volumes.
-pub(super) fn told(
+/// Describes for the painter what is at a place (if there is a surface) and the colour shown there.
+pub(super) fn described(
     found: Option<(Vec3, Found)>,
     srgb: [u8; 3],
     slots: Slots,

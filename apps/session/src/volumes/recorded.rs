@@ -280,7 +280,7 @@ mod tests {
     #[test]
     fn gestures_are_told_by_time_and_taken_back_as_they_were_added() {
         let mut recorded = recorded();
-        fn told(recorded: &Recorded) -> Vec<(String, u64, u64)> {
+        fn summary(recorded: &Recorded) -> Vec<(String, u64, u64)> {
             let events = recorded.events().into_iter();
             events.map(|event| (event.label, event.from, event.to)).collect()
         }
@@ -292,12 +292,12 @@ mod tests {
             line("pour Ultramarine", 12, 36),
             line("pour Vermilion", 12, 36),
         ];
-        assert_eq!(told(&recorded), [dry, blue.clone(), red.clone()]);
+        assert_eq!(summary(&recorded), [dry, blue.clone(), red.clone()]);
         assert_eq!(recorded.undo(), Some(6));
-        assert_eq!(told(&recorded), [blue, red.clone()]);
+        assert_eq!(summary(&recorded), [blue, red.clone()]);
         let before = recorded.revision();
         assert_eq!(recorded.remove(0), Some(12));
-        assert_eq!(told(&recorded), [red]);
+        assert_eq!(summary(&recorded), [red]);
         assert!(recorded.revision() > before, "it changed");
         assert_eq!((recorded.remove(7), recorded.end_step()), (None, 36));
     }

@@ -37,7 +37,7 @@ struct CropFrame {
 
 impl CropFrame {
     /// The whole canvas.
-    fn whole((width, height): (usize, usize)) -> Self {
+    fn whole_canvas((width, height): (usize, usize)) -> Self {
         Self { x: [0.0, width as f64], y: [0.0, height as f64] }
     }
 
@@ -119,13 +119,13 @@ impl CropFrame {
 
     /// Whole cells of the frame on a canvas of `cells`.
     fn cells(&self, (width, height): (usize, usize)) -> Rect {
-        fn whole([low, high]: [f64; 2], most: usize) -> (usize, usize) {
+        fn whole_cells([low, high]: [f64; 2], most: usize) -> (usize, usize) {
             let low = (low.round().max(0.0) as usize).min(most.saturating_sub(1));
             let high = (high.round().max(0.0) as usize).clamp(low + 1, most);
             (low, high - low)
         }
-        let (x, width) = whole(self.x, width);
-        let (y, height) = whole(self.y, height);
+        let (x, width) = whole_cells(self.x, width);
+        let (y, height) = whole_cells(self.y, height);
         Rect { x, y, width, height }
     }
 }
@@ -159,7 +159,7 @@ impl CropTool {
     /// A crop that starts with all of a canvas of `cells`.
     #[must_use]
     pub fn new(cells: (usize, usize)) -> Self {
-        Self { frame: CropFrame::whole(cells), cells, shape: None }
+        Self { frame: CropFrame::whole_canvas(cells), cells, shape: None }
     }
 
     /// Whole cells that stay.
@@ -321,7 +321,7 @@ mod tests {
 
     #[test]
     fn handles_move_their_edges_and_stay_on_the_canvas() {
-        let whole = CropFrame::whole(CELLS);
+        let whole = CropFrame::whole_canvas(CELLS);
         let frame = whole.dragged([-1, -1], [20.4, 10.0], None, CELLS);
         assert_eq!(frame.cells(CELLS), Rect { x: 20, y: 10, width: 180, height: 90 });
         let frame = frame.dragged([1, 0], [150.0, 3.0], None, CELLS);
@@ -334,7 +334,7 @@ mod tests {
 
     #[test]
     fn a_kept_shape_stays_within_the_canvas() {
-        let whole = CropFrame::whole(CELLS);
+        let whole = CropFrame::whole_canvas(CELLS);
         for (handle, to) in [
             ([1, 1], [120.0, 20.0]),
             ([-1, -1], [150.0, 90.0]),

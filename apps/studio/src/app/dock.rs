@@ -286,7 +286,7 @@ pub(super) enum HeaderRequest {
 
 pub(super) struct Header<'a> {
     pub(super) panels: &'a [&'static SidePanel],
-    /// Height of the header in a column of this width.
+    /// The panel that you see of the group.
     pub(super) chosen: &'static SidePanel,
     /// Whether you see the panel, because the group is not folded.
     pub(super) open: bool,

@@ -171,7 +171,7 @@ enum State {
     /// Waits for your decision.
     Conflicts(Conflict),
     /// A sentence about the last press.
-    Told(String),
+    Message(String),
 }
 
 impl KeyEditor {
@@ -200,7 +200,7 @@ impl KeyEditor {
     /// A sentence about the last key press, or about the press that we wait for.
     pub(super) fn message(&self) -> Option<&str> {
         match &self.state {
-            State::Told(text) => Some(text),
+            State::Message(text) => Some(text),
             State::Waits { .. } => Some(tr("Press the key, with Ctrl or Shift if you like.")),
             _ => None,
         }
@@ -249,7 +249,7 @@ impl KeyEditor {
         }
         let table = keymap.table(self.scope);
         self.state = match Shortcut::of_press(key, modifiers) {
-            Err(error) => State::Told(tr_format!(
+            Err(error) => State::Message(tr_format!(
                 "This key cannot be changed: {error}.",
                 error = tr(&error.to_string())
             )),

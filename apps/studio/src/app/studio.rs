@@ -26,7 +26,8 @@ use super::volumes::{Volumes, WindowIntent, scene_key_rows};
 use super::{bars, keys};
 use crate::arrangement::Side;
 use crate::files::{
-    Desk, DeskReference, DeskView, FiguresLog, Files, Problem, ReferenceChange, StatusNote,
+    CanvasView, FiguresLog, Files, PinnedReference, Problem, ReferenceChange, StatusNote,
+    WindowSetup,
 };
 use crate::keymap::{Changes, Keymap, Scope, install};
 use crate::language::{Language, speak, spoken, tr, tr_format};
@@ -300,10 +301,10 @@ impl Studio {
         pace::begin_frame(context, Instant::now());
         speak(self.files.preferences.language);
         self.handle_events();
-        if let Some(desk) = self.files.take_desk() {
-            self.set_up(&desk, context);
+        if let Some(setup) = self.files.take_window_setup() {
+            self.set_up(&setup, context);
         }
-        self.files.note_desk(self.desk());
+        self.files.note_window_setup(self.window_setup());
         self.files.note_drawings(self.panels.reference.unsaved_drawings());
         for command in self.files.update(context) {
             self.note_command(&command);
@@ -644,33 +645,34 @@ impl Studio {
 
     /// How the window is set up now.
     #[must_use]
-    pub fn desk(&self) -> Desk {
+    pub fn window_setup(&self) -> WindowSetup {
         let ViewState { centre, zoom, rotation, mirror, fitted } = self.canvas.view;
         let reference = self.panels.reference.pinned();
-        Desk {
+        WindowSetup {
             brush: Some(self.tools.brush.clone()),
             tool: Some(self.tools.mode.name().to_owned()),
-            view: Some(DeskView { centre, zoom, rotation, mirror, fitted }),
+            view: Some(CanvasView { centre, zoom, rotation, mirror, fitted }),
             aids: Some(self.aids),
-            reference: reference.map(|(path, drawings)| DeskReference::new(path, &drawings)),
+            reference: reference.map(|(path, drawings)| PinnedReference::new(path, &drawings)),
         }
     }
 
-    /// Sets the window up as `desk` says. This skips what the painting does not have.
-    pub fn set_up(&mut self, desk: &Desk, context: &Context) {
+    /// Sets the window up as `setup` says. This skips what the painting does not have.
+    pub fn set_up(&mut self, setup: &WindowSetup, context: &Context) {
         let brushes = self.painting.iter().flat_map(|painting| &painting.brushes);
-        let brush = brushes.map(|brush| &brush.name).find(|name| desk.brush.as_ref() == Some(name));
+        let brush =
+            brushes.map(|brush| &brush.name).find(|name| setup.brush.as_ref() == Some(name));
         if let Some(brush) = brush {
             self.tools.brush = brush.clone();
         }
-        if let Some(mode) = desk.tool.as_deref().and_then(Mode::named) {
+        if let Some(mode) = setup.tool.as_deref().and_then(Mode::named) {
             self.tools.mode = mode;
         }
-        if let Some(DeskView { centre, zoom, rotation, mirror, fitted }) = desk.view {
+        if let Some(CanvasView { centre, zoom, rotation, mirror, fitted }) = setup.view {
             self.canvas.view = ViewState { centre, zoom, rotation, mirror, fitted };
         }
-        self.aids = desk.aids.unwrap_or(self.aids);
-        if let Some(reference) = &desk.reference {
+        self.aids = setup.aids.unwrap_or(self.aids);
+        if let Some(reference) = &setup.reference {
             let picture = reference.picture.clone();
             let drawings = reference.drawn();
             let restored = ReferenceChange::Restore { picture, drawings };

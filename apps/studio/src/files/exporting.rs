@@ -481,7 +481,7 @@ mod tests {
         let document = green();
         let light = Light::named(&document.library, "D65", "1931-2").unwrap();
         let pixels = PixelsPerCell::new(1).unwrap();
-        for (format, told) in [
+        for (format, has_remark) in [
             (PictureFormat::Png8, true),
             (PictureFormat::Png16, true),
             (PictureFormat::Tiff16, true),
@@ -492,7 +492,7 @@ mod tests {
             let task = Task::default();
             let chosen = Export { kind, pixels };
             let remark = export(chosen, &document, &light, &path, &task).unwrap();
-            assert_eq!(remark.is_some(), told, "{format:?}: {remark:?}");
+            assert_eq!(remark.is_some(), has_remark, "{format:?}: {remark:?}");
             let name = path.display().to_string();
             assert!(remark.is_none_or(|remark| remark.text.starts_with(&name)), "{format:?}");
         }

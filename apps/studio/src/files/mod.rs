@@ -3,7 +3,7 @@
 
 mod problem;
 mod request;
-mod desk;
+mod window_setup;
 mod job;
 mod new_canvas;
 mod preferences;
@@ -20,7 +20,6 @@ mod tasks;
 mod asking;
 mod swatches;
 
-pub use desk::{Desk, DeskDrawing, DeskReference, DeskView};
 pub(crate) use exporting::export;
 pub use exporting::{Export, ExportKind, SceneAnswer, SceneExport};
 pub use figures_log::{FiguresLog, FrameFigures};
@@ -34,4 +33,5 @@ pub use request::{
 };
 pub use state::Files;
 pub(crate) use tasks::bottom_of_notices;
+pub use window_setup::{CanvasView, PinnedReference, SavedDrawing, WindowSetup};
 pub use work::{BrushSets, StatusNote};

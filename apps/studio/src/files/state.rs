@@ -14,7 +14,6 @@ use spectra::swatch_file::SwatchFile;
 use web_time::Instant;
 
 use super::browser::{Browser, Thumbnails};
-use super::desk::Desk;
 use super::exporting::{Export, SceneFiles, ScenePurpose, TimelapseExport};
 use super::job::{Job, JobError};
 use super::new_dialog::{CanvasPicture, NewDialog};
@@ -22,6 +21,7 @@ use super::opened::RevisionList;
 use super::preferences::{Home, Preferences};
 use super::problem::Problem;
 use super::request::{Drawing, DrawingKind, DrawnFile, FileRequest, ReferenceChange, SwatchFormat};
+use super::window_setup::WindowSetup;
 use super::work::{
     BrushSets, FileOrigin, Finished, JobKind, Notice, PendingAction, Purpose, Replacement,
     RunningJob, StatusNote,
@@ -68,10 +68,10 @@ pub struct Files {
     /// Number of recorded actions that the autosaves hold.
     pub(super) recorded: usize,
     /// The set-up of the window, now and at the last autosave.
-    pub(super) desk: Desk,
-    pub(super) autosaved_desk: Option<Desk>,
+    pub(super) setup: WindowSetup,
+    pub(super) autosaved_setup: Option<WindowSetup>,
     /// The set-up of a recovered painting, until the window takes it.
-    pub(super) recovered_desk: Option<Desk>,
+    pub(super) recovered_setup: Option<WindowSetup>,
     /// A reference picture and the digest of its file.
     pub(super) reference_digest: Option<(PathBuf, Option<String>)>,
     /// We report only the first of several failures.
@@ -143,9 +143,9 @@ impl Files {
             wanted: None,
             autosaved_revision: None,
             recorded: 0,
-            desk: Desk::default(),
-            autosaved_desk: None,
-            recovered_desk: None,
+            setup: WindowSetup::default(),
+            autosaved_setup: None,
+            recovered_setup: None,
             reference_digest: None,
             autosave_failed: false,
             replay: None,
@@ -279,13 +279,13 @@ impl Files {
     }
 
     /// Notes the set-up of the window. Call this every frame before [`Files::update`].
-    pub fn note_desk(&mut self, desk: Desk) {
-        self.desk = desk;
+    pub fn note_window_setup(&mut self, setup: WindowSetup) {
+        self.setup = setup;
     }
 
     /// Removes and returns the set-up of a recovered painting.
-    pub fn take_desk(&mut self) -> Option<Desk> {
-        self.recovered_desk.take()
+    pub fn take_window_setup(&mut self) -> Option<WindowSetup> {
+        self.recovered_setup.take()
     }
 
     pub(super) fn request_recording(&mut self, purpose: Purpose) {
@@ -379,7 +379,7 @@ impl Files {
         self.saved_revision = (!changed).then_some(state.revision);
         self.painting = Some(state.clone());
         self.autosaved_revision = None;
-        (self.recorded, self.autosaved_desk) = (0, None);
+        (self.recorded, self.autosaved_setup) = (0, None);
         if let Some(path) = &path
             && lost.is_none()
         {
@@ -387,8 +387,8 @@ impl Files {
         }
         self.path = path;
         if let Some(lost) = &lost {
-            let desk = lost.meta.desk.clone();
-            self.recovered_desk = desk.and_then(|desk| serde_json::from_value(desk).ok());
+            let setup = lost.meta.desk.clone();
+            self.recovered_setup = setup.and_then(|setup| serde_json::from_value(setup).ok());
         }
         if lost.is_some() {
             // The painting is not saved yet. This makes an autosave due now. We delete the lost

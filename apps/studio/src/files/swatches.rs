@@ -233,16 +233,16 @@ impl Files {
     /// shown set.
     pub(super) fn brushes_read(&mut self, path: &Path, brushes: ReadBrushes) {
         self.preferences.last_folder = path.parent().map(Path::to_owned);
-        let told = match brushes {
+        let notice = match brushes {
             ReadBrushes::Set(set) => {
                 let count = match set.presets().len() {
                     1 => tr("1 brush").to_owned(),
                     count => tr_format!("{count} brushes", count),
                 };
-                let told = tr_format!("imported {name}, {count}", name = set.name(), count);
+                let notice = tr_format!("imported {name}, {count}", name = set.name(), count);
                 self.add_brush_set(set);
                 self.brush_sets.imported = None;
-                told
+                notice
             }
             ReadBrushes::Myb(mut imported) => {
                 let Some(name) = self.brush_set().add(imported.preset.clone()) else {
@@ -254,7 +254,7 @@ impl Files {
                 tr_format!("imported {name}", name)
             }
         };
-        self.notices.push(Notice::done(&told));
+        self.notices.push(Notice::done(&notice));
     }
 
     pub(super) fn export_brushes(&mut self, set: BrushSet, path: PathBuf) {

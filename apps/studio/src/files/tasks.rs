@@ -21,7 +21,6 @@ use session::{
 };
 use web_time::{Duration, Instant, SystemTime};
 
-use super::desk::{Desk, digest_of};
 use super::exporting;
 use super::exporting::{Recorded, TimelapseExport};
 use super::job::{JobError, on_one_core};
@@ -29,6 +28,7 @@ use super::opened::{self, Opened};
 use super::problem::{Problem, ago};
 use super::request::ReferenceChange;
 use super::state::Files;
+use super::window_setup::{WindowSetup, digest_of};
 use super::work::{
     FileOrigin, Finished, JobKind, Notice, PendingAction, Purpose, Replacement, StatusNote,
     file_name,
@@ -288,12 +288,12 @@ impl Files {
                     self.revisions.set(&self.ctx, self.path.clone(), revisions);
                 }
             }
-            Finished::Autosaved { revision, epoch, recorded, desk, digest } => {
+            Finished::Autosaved { revision, epoch, recorded, setup, digest } => {
                 self.autosave_failed = false;
                 self.reference_digest = digest;
                 if epoch == self.epoch {
                     self.autosaved_revision = Some(revision);
-                    (self.recorded, self.autosaved_desk) = (recorded, Some(*desk));
+                    (self.recorded, self.autosaved_setup) = (recorded, Some(*setup));
                 }
                 if let Some(lost) = self.recovered.take() {
                     // The autosaves of this session contain the recovered painting now, so we do
@@ -407,8 +407,9 @@ impl Files {
                 remarks.push(failure.into());
                 None
             });
-            let desk: Option<Desk> = lost.meta.desk.clone().and_then(|desk| from_value(desk).ok());
-            let reference = desk.and_then(|desk| desk.reference);
+            let setup: Option<WindowSetup> =
+                lost.meta.desk.clone().and_then(|setup| from_value(setup).ok());
+            let reference = setup.and_then(|setup| setup.reference);
             remarks.extend(reference.and_then(|reference| reference.remark()));
             Ok(Finished::Recovered { canvas, palette, work: work.map(Box::new), lost, remarks })
         });
@@ -422,9 +423,9 @@ impl Files {
         let changed = state.stroke_open
             || self.autosaved_revision != Some(state.revision)
             || self
-                .autosaved_desk
+                .autosaved_setup
                 .as_ref()
-                .is_some_and(|desk| desk.reference != self.desk.reference);
+                .is_some_and(|setup| setup.reference != self.setup.reference);
         if busy || !changed || !self.has_unsaved_changes() || self.opening.is_some() {
             return;
         }
@@ -441,7 +442,7 @@ impl Files {
     pub(super) fn start_autosave(&mut self, kept: &Arc<KeptPainting>) {
         let kept = kept.clone();
         let start = self.start.clone();
-        let desk = self.desk.clone();
+        let setup = self.setup.clone();
         let revision = kept.snapshot.revision;
         let epoch = self.epoch;
         let title = self.title();
@@ -450,10 +451,10 @@ impl Files {
         let autosave = self.autosave.clone();
         let known = self.reference_digest.clone();
         self.start_job(JobKind::Autosave, "autosave".to_owned(), move |_| {
-            let picture = desk.reference.as_ref().map(|reference| &reference.picture);
+            let picture = setup.reference.as_ref().map(|reference| &reference.picture);
             let digest = known.filter(|(path, _)| Some(path) == picture);
             let digest = digest.or_else(|| picture.map(|path| (path.clone(), digest_of(path))));
-            let mut with_digest = desk.clone();
+            let mut with_digest = setup.clone();
             if let (Some(reference), Some((_, sha256))) = (&mut with_digest.reference, &digest) {
                 reference.sha256.clone_from(sha256);
             }
@@ -467,14 +468,14 @@ impl Files {
                 }
                 None => 0,
             };
-            Ok(Finished::Autosaved { revision, epoch, recorded, desk: Box::new(desk), digest })
+            Ok(Finished::Autosaved { revision, epoch, recorded, setup: Box::new(setup), digest })
         });
     }
 
     /// Starts deleting the autosaves, e.g. because the painting is saved in a file or discarded.
     pub(super) fn clear_autosaves(&mut self) {
         (self.last_autosave, self.autosaved_revision) = (Some(Instant::now()), None);
-        (self.recorded, self.autosaved_desk) = (0, None);
+        (self.recorded, self.autosaved_setup) = (0, None);
         let autosave = self.autosave.clone();
         self.start_job(JobKind::Background, tr("clearing autosaves").to_owned(), move |_| {
             let mut autosave = autosave.lock().unwrap_or_else(PoisonError::into_inner);

@@ -12,12 +12,12 @@ use session::swatches::SwatchBook;
 use session::{Command, LostSession, RecoveredWork};
 use web_time::{Duration, Instant};
 
-use super::desk::Desk;
 use super::exporting::{Export, TimelapseExport};
 use super::job::Job;
 use super::opened::{Opened, Revision};
 use super::problem::Problem;
 use super::request::{DrawnFile, ReadSwatches, ReferenceChange};
+use super::window_setup::WindowSetup;
 
 /// Why we asked the worker for a snapshot or a recording.
 #[derive(Debug)]
@@ -87,15 +87,15 @@ pub(super) enum Finished {
     /// The revisions were listed.
     Listed { epoch: u64, revisions: Vec<Revision> },
     /// An autosave was written. `revision` is the painting's counter of changes at this time,
-    /// `recorded` the number of kept actions of its recording.
+    /// `recorded` the number of actions in the saved recording.
     Autosaved {
         revision: u64,
         epoch: u64,
         recorded: usize,
-        desk: Box<Desk>,
+        setup: Box<WindowSetup>,
         digest: Option<(PathBuf, Option<String>)>,
     },
-    /// The sets of own brushes were read. Some files may have these problems.
+    /// The painter's sets of brushes were read. The problems are about files that we could not use.
     BrushSetsRead(Vec<StoredSet>, Vec<Problem>),
     /// A file of brushes was read.
     BrushesRead { path: PathBuf, brushes: ReadBrushes },

@@ -367,7 +367,7 @@ mod tests {
         assert_eq!(spoken(), Language::German);
         assert_eq!(std::thread::spawn(spoken).join().unwrap(), Language::English);
         speak(None);
-        assert_eq!(spoken(), Language::English, "no program has told the system's");
+        assert_eq!(spoken(), Language::English, "no program has set the language of the system");
     }
 
     #[test]

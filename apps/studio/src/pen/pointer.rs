@@ -416,7 +416,7 @@ mod tests {
         assert_eq!(frame(50, std::slice::from_ref(&second)), none(""));
         assert_eq!(frame(90, std::slice::from_ref(&last)), none(""));
         assert_eq!(frame(100, std::slice::from_ref(&end)), (String::new(), Some((2, 7.0))));
-        assert_eq!(frame(116, &[]), none(""), "it is told once");
+        assert_eq!(frame(116, &[]), none(""), "it is reported once");
         // The first finger rests and paints before the second one comes.
         assert_eq!(frame(1000, std::slice::from_ref(&first)), none(""));
         assert_eq!(frame(1080, &[]), none("P"));

@@ -37,8 +37,8 @@ impl SurfaceTransform {
         (self.origin.0 + x, self.origin.1 + y)
     }
 
-    /// Converts a tilt towards the right and the lower edge of the window to a tilt towards those
-    /// of the surface, in degrees from upright.
+    /// Converts a tilt towards the right and lower edge of the window to a tilt towards the right
+    /// and lower edge of the surface, in degrees from upright.
     pub(super) fn surface_tilt(&self, (tilt_x, tilt_y): (f64, f64)) -> (f64, f64) {
         let lean = [tilt_x, tilt_y]
             .map(|degrees: f64| degrees.clamp(-89.0, 89.0).to_radians().tan())

@@ -206,14 +206,14 @@ mod tests {
     #[test]
     fn a_constant_pressure_is_none_and_is_told_once() {
         let mut pens = PagePens::default();
-        let mut told = Vec::new();
+        let mut notices = Vec::new();
         pens.reports(&event(PagePhase::Down, 0.5));
         for _ in 0..3 * CERTAIN {
             assert_eq!(state(&pens.reports(&event(PagePhase::Move, 0.5))).pressure, None);
-            told.extend(pens.take_notice());
+            notices.extend(pens.take_notice());
         }
-        assert_eq!(told.len(), 1);
-        assert!(told[0].contains("speed"), "{told:?}");
+        assert_eq!(notices.len(), 1);
+        assert!(notices[0].contains("speed"), "{notices:?}");
     }
 
     #[test]

@@ -8,7 +8,7 @@ use graphics::tile;
 use paint::pose::Sample;
 use paint::strokes::{Action, Stroke, StrokeTool, SurfaceId};
 use session::{Command, Pace};
-use studio::files::Desk;
+use studio::files::WindowSetup;
 use studio::pen::{
     Device, DrawingAids, GuideKind, PointerState, ReportKind, RulerShape, Script, SymmetryKind,
 };
@@ -379,12 +379,12 @@ fn a_recovered_session_has_its_aids() {
     aids(&mut window).symmetry.centre = [7.0, 8.0];
     aids(&mut window).perspective.points[0] = [-60.0, 4.0];
     let kept = *aids(&mut window);
-    let text = serde_json::to_string(&window.studio().desk()).unwrap();
-    let desk: Desk = serde_json::from_str(&text).unwrap();
-    let mut next = Window::open("aids-desk-next");
+    let text = serde_json::to_string(&window.studio().window_setup()).unwrap();
+    let setup: WindowSetup = serde_json::from_str(&text).unwrap();
+    let mut next = Window::open("aids-setup-next");
     assert_eq!(next.studio().aids.guide, None);
     let context = next.harness().ctx.clone();
-    next.studio_mut().set_up(&desk, &context);
+    next.studio_mut().set_up(&setup, &context);
     next.settle();
     assert_eq!(*aids(&mut next), kept);
 }

@@ -482,8 +482,9 @@ fn sets_are_exported_and_imported_and_brushes_of_mypaint_taken_over() {
     import(&mut window, &ink);
     until(&mut window, "the brush", |window| names(window).contains(&"ink".to_owned()));
     window.harness().run_ok();
-    let told = window.harness().query_by_label_contains("has no meaning here: hardness").is_some();
-    assert!(told, "nothing is dropped in silence");
+    let is_reported =
+        window.harness().query_by_label_contains("has no meaning here: hardness").is_some();
+    assert!(is_reported, "nothing is dropped in silence");
     window.save("own-brushes-imported");
 
     std::fs::write(&ink, "{}").unwrap();

@@ -384,7 +384,7 @@ fn a_crop_is_framed_with_handles_and_applied_with_enter() {
     let to = window.point(SurfaceId::Canvas, 20.0, 10.0);
     window.pen_stroke(&[handle, handle.lerp(to, 0.5), to]);
     window.save("crop-window");
-    assert!(window.harness().query_by_label("20.0 x 20.0 mm").is_some(), "its size is told");
+    assert!(window.harness().query_by_label("20.0 x 20.0 mm").is_some(), "you see its size");
     let painting = window.studio().painting().unwrap();
     assert_eq!((painting.history_done, painting.canvas_cells), (history, (320, 200)));
     window.key(Modifiers::NONE, Key::Enter);

@@ -63,8 +63,8 @@ fn a_key_of_another_action_is_named_and_taken_only_if_wanted() {
     let mut window = Window::open("keys-conflict");
     window.key(Modifiers::NONE, Key::F1);
     press_for(&mut window, "change M of Mirror", Modifiers::NONE, Key::W);
-    let told = "W is the key of Wash the brush.";
-    assert!(window.harness().query_by_label(told).is_some(), "both are named");
+    let message = "W is the key of Wash the brush.";
+    assert!(window.harness().query_by_label(message).is_some(), "both are named");
     window.save("keys-conflict");
     window.click("Cancel");
     assert!(window.studio().files.preferences.keys.is_empty(), "nothing changed");
@@ -77,7 +77,7 @@ fn a_key_of_another_action_is_named_and_taken_only_if_wanted() {
     // You cannot use reserved keys and see the reason. Escape leaves the key.
     press_for(&mut window, "change M of Mirror", Modifiers::NONE, Key::Space);
     let refused = window.harness().query_by_label_contains("the space bar moves the view");
-    assert!(refused.is_some(), "the reason is told");
+    assert!(refused.is_some(), "you see the reason");
     press_for(&mut window, "change M of Mirror", Modifiers::NONE, Key::Escape);
     assert!(window.studio().visible.keys, "the window stays");
     assert_eq!(keys_of(&window, "mirror"), Some(vec!["M", "W"]));
@@ -135,8 +135,8 @@ fn faults_of_the_preferences_are_told_and_unknown_names_kept() {
     let keys = &mut window.studio_mut().files.preferences.keys;
     keys.insert("fly".to_owned(), vec!["F".to_owned()]);
     window.harness().run_ok();
-    let told = window.harness().query_all_by_label_contains("`fly` is nothing").count();
-    assert_eq!(told, 1);
+    let faults = window.harness().query_all_by_label_contains("`fly` is nothing").count();
+    assert_eq!(faults, 1);
     window.key(Modifiers::NONE, Key::F1);
     press_for(&mut window, "change M of Mirror", Modifiers::NONE, Key::K);
     assert_eq!(keys_of(&window, "fly"), Some(vec!["F"]), "it is kept");
@@ -162,7 +162,7 @@ fn scenes_have_keys_of_their_own() {
 }
 
 /// Whether a control with this label shows a tooltip that contains `words`.
-fn tells(window: &mut Window, label: &str, words: &str) -> bool {
+fn has_tooltip_with(window: &mut Window, label: &str, words: &str) -> bool {
     let count = window.harness().query_all_by_label(label).count();
     (0..count).any(|index| {
         let control = window.harness().query_all_by_label(label).nth(index);
@@ -197,7 +197,7 @@ fn tooltips_tell_the_keys_in_use() {
         window.harness().step();
     }
     window.settle();
-    assert!(tells(&mut window, "Over canvas", "to draw after (key F5). It is never"));
+    assert!(has_tooltip_with(&mut window, "Over canvas", "to draw after (key F5). It is never"));
     window.studio_mut().open_scene(&context, Subject::Shape("village".to_owned()));
     wait(&mut window, "the first picture", |volumes| volumes.picture().is_some());
     for (label, words) in [
@@ -207,7 +207,7 @@ fn tooltips_tell_the_keys_in_use() {
         ("Volumes", "grey drawing (key Shift+F2)"),
         ("Own", "own colours (key Shift+F3)"),
     ] {
-        assert!(tells(&mut window, label, words), "{label}: {words}");
+        assert!(has_tooltip_with(&mut window, label, words), "{label}: {words}");
     }
 }
 

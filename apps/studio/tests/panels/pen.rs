@@ -351,8 +351,8 @@ fn tools_of_the_toolbar_work_the_wet_paint_and_the_status_line_tells_what_they_t
         let history = history(&window);
         let last = history.last().expect("there are actions");
         assert!(last.starts_with(&format!("{tool}, ")), "{history:?}");
-        let told = message(&window);
-        assert!(told.contains(" mm3 ") && told.contains(wanted), "{told}");
+        let text = message(&window);
+        assert!(text.contains(" mm3 ") && text.contains(wanted), "{text}");
         assert_eq!(brush(&window), loaded, "{tool}: the paint of the brush stays");
     }
     window.save("working-tools");
@@ -472,5 +472,5 @@ fn a_tap_within_one_frame_picks_a_colour() {
     assert!(!window.shows("sRGB"), "nothing is picked yet");
     window.frame(vec![button(at, true), button(at, false)]);
     window.settle();
-    assert!(window.shows("sRGB"), "the colour is told");
+    assert!(window.shows("sRGB"), "you see the colour");
 }

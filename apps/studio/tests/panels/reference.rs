@@ -385,7 +385,7 @@ fn a_scribble_off_the_picture_is_clipped_and_crossing_ones_are_told() {
     let points = scribble(&marks(&mut stage).samples[0].area).to_vec();
     assert!(near(points[0], [600.0, 200.0]) && near(points[1], [799.9, 200.0]), "{points:?}");
     draw(&mut stage, &[[650.0, 100.0], [650.0, 300.0]]);
-    assert!(shows(&stage, "crosses the line of sample `sample 1`"), "it is told at once");
+    assert!(shows(&stage, "crosses the line of sample `sample 1`"), "you see it at once");
     assert!(shows(&stage, "shorten one of the lines"), "with a way out");
     stage.save("reference-crossing");
     stage.click("Undo mark");
@@ -472,7 +472,7 @@ fn a_drawing_from_a_file_is_shown_and_guides_of_another_picture_are_not() {
     assert!(problem.text.contains("marks the picture other.png"), "{problem:?}");
     stage.run();
     assert!(shows(&stage, "Delete grass"), "both are listed");
-    assert!(shows(&stage, "[700, 900] lies off the picture"), "the fault is told");
+    assert!(shows(&stage, "[700, 900] lies off the picture"), "you see the fault");
     stage.save("reference-opened");
     assert!(stage.state().panel.unsaved_drawings().is_empty(), "they are in a file");
     stage.click("Delete sky");

@@ -80,8 +80,10 @@ impl Screen {
         let spawned = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn();
         let mut server = spawned.ok()?;
         let mut number = String::new();
-        let told = server.stdout.take().expect("the output is piped");
-        BufReader::new(told).read_line(&mut number).expect("the server prints its display number");
+        let output = server.stdout.take().expect("the output is piped");
+        BufReader::new(output)
+            .read_line(&mut number)
+            .expect("the server prints its display number");
         let name = format!(":{}", number.trim());
         let (connection, screen) = x11rb::connect(Some(&name)).expect("the server answers");
         connection.xtest_get_version(2, 2).unwrap().reply().expect("the server has XTEST");

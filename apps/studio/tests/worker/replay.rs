@@ -62,7 +62,7 @@ fn assert_replay(pace: Pace) {
     assert_eq!(last, (of, of), "all actions are played");
     let (text, _, failed) = window.message();
     assert!(text.contains("1 file that") && !failed, "unsaved files are reported: {text}");
-    assert!(text.contains("9 of 9 actions"), "what was played is told: {text}");
+    assert!(text.contains("9 of 9 actions"), "the message says what was played: {text}");
     window.wait("the end", |event| matches!(event, Event::Replayed).then_some(()));
     if pace == Pace::AsPainted {
         // 89 + 49 + 39 + 29 pauses of 1/120 s.

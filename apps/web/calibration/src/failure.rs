@@ -4,8 +4,8 @@ use documents::hint::{Explain, Hint};
 
 pub(crate) use told::{Result, setting};
 
-/// For each setting that hints name, where the page has it. Other settings are options of the
-/// program.
+/// Where the page has each setting that a hint may name. Other settings exist only as options of
+/// the program.
 const CONTROLS: [(&str, &str); 29] = [
     ("reference", "\"White\""),
     ("percent", "\"Readings are in\": percent"),
@@ -47,7 +47,7 @@ pub(crate) fn request<T: serde::de::DeserializeOwned>(json: &str) -> Result<T> {
     told::request(json, &CONTROLS)
 }
 
-/// Results whose errors reach the page.
+/// Converts the error of a result into the JSON that the page reads.
 pub(crate) trait Told<T> {
     fn told(self) -> Result<T>;
 }

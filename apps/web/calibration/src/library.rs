@@ -43,7 +43,8 @@ impl Library {
         self.0.to_json()
     }
 
-    /// All but the curves, as JSON, with the colour of each pigment by itself under a light.
+    /// The library without its curves, as JSON, with the colour of each pigment by itself under a
+    /// light.
     pub fn about(&self, viewing: &str) -> Result<String> {
         let library = &self.0;
         let viewing = request::<Viewing>(viewing)?;

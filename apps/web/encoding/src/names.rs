@@ -12,7 +12,7 @@ macro_rules! encodings {
             #[doc = concat!("The encoding ", $name, ".")]
             pub static $constant: &Encoding = &$place;
         )*
-        /// All of them.
+        /// Every encoding above, in order.
         pub(crate) static LABELS: &[&Encoding] = &[$(&$place),*];
     };
 }

@@ -1,6 +1,7 @@
-//! Errors, stages and defects as pages take them.
+//! Errors and progress of the libraries in the form that the pages take.
 //!
-//! Every error reaches a page as JSON: `message`, `causes`, `hint`, `fault`.
+//! An error becomes JSON with `message`, `causes`, `hint` and `fault`. Progress goes to a function
+//! of the page while a call runs.
 
 mod refusal;
 mod stages;

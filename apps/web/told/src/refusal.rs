@@ -1,4 +1,4 @@
-//! Errors of the libraries as pages take them: JSON in the words of the page.
+//! Turns errors of the libraries into JSON, in the words of the page.
 
 use std::error::Error;
 
@@ -10,7 +10,8 @@ use wasm_bindgen::JsValue;
 /// Result of a call of a page.
 pub type Result<T> = std::result::Result<T, JsValue>;
 
-/// Where a page has each setting that hints name. Others are options of the program alone.
+/// For each setting that a hint may name, its place on the page. Other settings exist only as
+/// options of the program.
 pub type Controls = [(&'static str, &'static str)];
 
 /// A hint that names the controls of the page.

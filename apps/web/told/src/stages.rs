@@ -1,4 +1,4 @@
-//! Stages and defects, which the page hears while a call runs.
+//! Reports the stages of long work, and defects of the program, to the page while a call runs.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -14,17 +14,17 @@ extern "C" {
     fn hear_defect(text: &str);
 }
 
-/// Tells the page the stage of long work.
+/// Passes the stage of long work to the page.
 pub fn stage(text: &str) {
     hear_stage(text);
 }
 
-/// A task that tells the page the `text` of each report.
+/// A task that passes the `text` of each report to the page.
 pub fn task(text: impl Fn(&Progress) -> String + Send + Sync + 'static) -> Task {
     Task::observed(move |progress| hear_stage(&text(progress)))
 }
 
-/// A task that tells the page `name`, then each further percent of `all` steps.
+/// A task that passes `name` to the page, then each further percent of `all` steps.
 pub fn task_in_percent(name: &'static str, all: usize) -> Task {
     hear_stage(name);
     let all = all.max(1) as u64;

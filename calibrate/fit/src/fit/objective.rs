@@ -443,7 +443,7 @@ pub(super) struct Noise {
     roots: Vec<Vec<f64>>,
     /// By sample and wavelength: weight of a cube-root residual that makes it perceptually uniform.
     even: Vec<Vec<f64>>,
-    /// By sample and wavelength: that weight for a residual in reflectance itself.
+    /// By sample and wavelength: the same weight for a residual in reflectance itself.
     slope: Vec<Vec<f64>>,
     median_slope: f64,
     /// Least standard deviation of a residual, from repeated readings. With few samples a fit may come

@@ -243,9 +243,9 @@ const NO_PIGMENTS: [&str; 47] = [
     "filter",
 ];
 
-/// Headings of names in lower case without spaces and signs, the most specific first. We use a later one
-/// only if a table lacks the earlier ones. Such are running numbers, and the word above the names where all
-/// other columns are wavelengths.
+/// Headings of columns of names in lower case without spaces and signs, the most specific first. We
+/// use a later one only if a table has none of the earlier ones. The last ones are numbers of
+/// samples, and the word that stands above the names if all other columns are wavelengths.
 const NAMES: [&str; 19] = [
     "sample",
     "samplename",

@@ -1,4 +1,5 @@
-//! Reads a measurement CSV. We read a large one in pieces, so that only the readings are in memory at once.
+//! Reads a measurement CSV. We read a large one in pieces, so that only the readings are in memory
+//! at once.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
@@ -257,7 +258,8 @@ impl LargeCsv {
         MeasurementTable::from_csv_with(&self.file, bytes, choice.scale, choice.pigments)
     }
 
-    /// Refuses readings that look like fractions in a file of percent, as a whole file is checked.
+    /// Refuses readings that look like fractions in a file of percent. A file that we read whole
+    /// gets the same check.
     fn check_percent(&self, part: &MeasurementTable) -> Result<(), MeasurementError> {
         let mixed = part.readings.iter().find(|r| largest(&r.reflectance) <= 0.01);
         mixed.map_or(Ok(()), |reading| {

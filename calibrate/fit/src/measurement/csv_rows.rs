@@ -39,7 +39,8 @@ fn shared(name: &str, known: &mut BTreeSet<Arc<str>>) -> Arc<str> {
     new
 }
 
-/// Makes the column of names the first of those headed as one where every row has a name.
+/// If several columns have a heading of names, uses the first of them in which every row has a
+/// name.
 fn take_filled_names(headers: &[String], columns: &mut [Column], rows: &[CsvRow]) {
     let Some(taken) = columns.iter().position(|column| *column == Column::Sample) else { return };
     let mut places: Vec<(Option<usize>, usize)> = (0..columns.len())
@@ -429,9 +430,9 @@ const LEAST_ROWS: usize = 3;
 /// Sums of amounts may differ by this share, and we still take them for one whole.
 const WHOLE: f64 = 1e-3;
 
-/// Places of the columns that we took for pigments but that hold no amounts. These have text in every cell,
-/// or amounts of bare cards, or values in every row without which the amounts of each row sum to one whole
-/// (1 or 100).
+/// Places of the columns that we took for pigments but that hold no amounts. Such a column has text
+/// in every cell, or amounts for bare cards. Or it has a value in every row, and without it the
+/// amounts of each row sum to one whole (1 or 100).
 pub(super) fn without_amounts(
     columns: &[Column],
     rows: &[CsvRow],
@@ -532,8 +533,11 @@ mod tests {
         ] {
             let (pigments, remarks) = read(heading, cells);
             assert_eq!(pigments, ["White", "Red"], "{heading}");
-            let told = heading.replace(',', ", ");
-            assert!(remarks.contains(&told) && remarks.contains("ignored"), "{heading}: {remarks}");
+            let listed = heading.replace(',', ", ");
+            assert!(
+                remarks.contains(&listed) && remarks.contains("ignored"),
+                "{heading}: {remarks}"
+            );
         }
     }
 

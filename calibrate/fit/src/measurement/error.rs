@@ -380,7 +380,7 @@ fn no_bare_reading(backing: &str) -> String {
     format!("lies on `{backing}`, of which there is no bare reading")
 }
 
-/// Where a film of paint is darker over the brighter of two cards, which no paint can be.
+/// A film of paint that is darker over the brighter of two cards. No paint can do this.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DarkerFilm {
     /// File name as the caller gave it.

@@ -42,7 +42,7 @@ pub struct PlannedSwatch {
 /// Predictions of a prior library about a plan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Forecast {
-    /// D-efficiency of the usual design of as many swatches against the plan, 0 to 1.
+    /// D-efficiency of the usual design with equally many swatches, relative to the plan, 0 to 1.
     pub usual_efficiency: f64,
     /// Predicted relative standard deviations of K and S, by paint.
     pub deviations: Vec<RelativeDeviation>,

@@ -25,7 +25,7 @@ pub enum Severity {
 pub struct Finding {
     /// Severity of the finding.
     pub severity: Severity,
-    /// Name of the pigment concerned. `None` where the whole library is.
+    /// Name of the pigment concerned. `None` if the finding is about the whole library.
     pub pigment: Option<String>,
     /// Description of the finding.
     pub what: String,
@@ -119,7 +119,7 @@ fn of_library(library: &PigmentLibrary) -> Vec<Finding> {
             format!("{start} to {end} nm leaves out a part of the visible band"),
         ),
         BandCoverage::Missing => {
-            found(Severity::Fault, format!("{start} to {end} nm is no visible light"));
+            found(Severity::Fault, format!("{start} to {end} nm is not visible light"));
         }
     }
     if library.grid.step_nm() > COARSE_STEP_NM {
@@ -128,7 +128,7 @@ fn of_library(library: &PigmentLibrary) -> Vec<Finding> {
     }
     for (what, text) in [("licence", &library.licence), ("source", &library.source)] {
         if text.trim().is_empty() {
-            found(Severity::Warning, format!("no {what} is told"));
+            found(Severity::Warning, format!("no {what} is stated"));
         }
     }
     let white = library.reference_id().map(|id| &library[id]);
@@ -214,10 +214,10 @@ fn of_pigment(library: &PigmentLibrary, pigment: &Pigment, findings: &mut Vec<Fi
     ] {
         match uncertainty(curve, sd) {
             None if sd.is_empty() => {
-                found(Severity::Warning, format!("no deviation of {letter} is told"));
+                found(Severity::Warning, format!("no deviation of {letter} is stated"));
             }
             Some(share) if share > UNCERTAIN => {
-                let what = format!("{letter} is known to {:.0} % only (median)", 100.0 * share);
+                let what = format!("{letter} is uncertain by {:.0} % (median)", 100.0 * share);
                 found(Severity::Warning, what);
             }
             _ => {}

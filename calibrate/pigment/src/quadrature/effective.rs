@@ -162,8 +162,9 @@ impl FilmSet {
         Self::of(library, weights, films)
     }
 
-    /// Films for fitting: every pigment alone, mixtures, tints, and films over black and white. We draw
-    /// them from other random streams than the films of the public draws.
+    /// Draws films for fitting: every pigment alone, mixtures, tints, and films over black and
+    /// white. Their random numbers are independent of [`FilmSet::hiding`] and
+    /// [`FilmSet::over_grounds`], so that you can test a fit with those.
     pub(super) fn for_fitting(
         library: &PigmentLibrary,
         weights: &TristimulusWeights,
@@ -190,7 +191,8 @@ impl FilmSet {
         Self::of(library, weights, films)
     }
 
-    /// Films like the public draws, from other random streams. Half of them hide, half lie over a ground.
+    /// Draws films like [`FilmSet::hiding`] and [`FilmSet::over_grounds`] do, half of each, but
+    /// with other random numbers.
     pub(super) fn candidates(
         library: &PigmentLibrary,
         weights: &TristimulusWeights,
@@ -273,7 +275,7 @@ impl<'a> Draw<'a> {
         vec![(PigmentId(pair.index(0)), 1.0 - share), (PigmentId(pair.index(1)), share)]
     }
 
-    /// A thickness for these parts, by optical thickness.
+    /// Draws a thickness for these parts. We draw the optical thickness evenly in its logarithm.
     fn thickness(&mut self, parts: &[(PigmentId, f64)]) -> f64 {
         let curves = self.mixed(parts);
         let both = curves.absorption.iter().zip(&curves.scattering);

@@ -155,7 +155,7 @@ impl Problem {
         point
     }
 
-    /// The fit from `point`. If you cancel it, you get where it stands.
+    /// Fits from `point`. If you cancel it, you get the point that it has reached.
     pub(super) fn solve(
         &self,
         point: DVector<f64>,

@@ -18,8 +18,8 @@ fn it_answers_like_the_disk() {
             use $disk as disk;
             let root: PathBuf = $root;
             let at = |name: &str| root.join(name);
-            let mut told: Vec<String> = Vec::new();
-            let mut tell = |what: &dyn std::fmt::Debug| told.push(format!("{what:?}"));
+            let mut answers: Vec<String> = Vec::new();
+            let mut tell = |what: &dyn std::fmt::Debug| answers.push(format!("{what:?}"));
             tell(&kind(disk::write(at("none/a"), "x")));
             tell(&kind(disk::create_dir(at("none/b"))));
             disk::create_dir_all(at("a/b")).unwrap();
@@ -54,7 +54,7 @@ fn it_answers_like_the_disk() {
             disk::remove_dir_all(at("a")).unwrap();
             tell(&kind(disk::read_dir(at("a"))));
             tell(&kind(disk::remove_file(at("a/two"))));
-            told
+            answers
         }};
     }
     let folder = tempfile::tempdir().unwrap();

@@ -67,7 +67,8 @@ pub(super) struct DepthTiles {
     /// Least and greatest depth of the pixels of each square that show something, row by row.
     ranges: Vec<Option<[f32; 2]>>,
     across: usize,
-    /// Greatest depths, first of each square, then of twice as wide and high ones and so on.
+    /// Greatest depths. The first level has one for each square, and each further level has squares
+    /// twice as wide and high.
     levels: Vec<Level>,
 }
 

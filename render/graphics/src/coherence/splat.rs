@@ -81,8 +81,8 @@ impl Splat {
         nearest > surfaces.farthest(limits(self.x, radius), limits(self.y, radius))
     }
 
-    /// Whether it may add to a pixel of this square. The square has this first pixel and these
-    /// depths.
+    /// Whether it may add to a pixel of the square that starts at this pixel and shows depths in
+    /// this range.
     #[inline]
     fn reaches(&self, [column, row]: [usize; 2], [low, high]: [f32; 2]) -> bool {
         let radius = 1.0 / self.narrowness;

@@ -95,7 +95,8 @@ const LEAST_HEIGHT: f64 = 1e-5;
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct ShapeTensor {
     pub(super) mean: f64,
-    /// (x, y): half their difference, along the squared direction of the greater one (by sign).
+    /// (x, y): half the difference of both curvatures, along the squared direction of the greater
+    /// one (by sign).
     pub(super) difference: DVec2,
 }
 

@@ -336,7 +336,7 @@ impl Mesh {
 }
 
 impl Mesh {
-    /// Tells for every triangle whether its connected part of the mesh is watertight and oriented
+    /// Returns for every triangle whether its connected part of the mesh is watertight and oriented
     /// outwards. [`Self::is_closed`] reports this for a whole mesh.
     ///
     /// # Panics

@@ -504,9 +504,17 @@ impl Screen {
                 // We always interpolate from the inside outwards, so that two triangles that share
                 // the edge are clipped at the same point.
                 if sides[i] >= 0.0 && sides[next] < 0.0 {
-                    left.push(between(here, polygon[next], sides[i] / (sides[i] - sides[next])));
+                    left.push(interpolated(
+                        here,
+                        polygon[next],
+                        sides[i] / (sides[i] - sides[next]),
+                    ));
                 } else if sides[i] < 0.0 && sides[next] >= 0.0 {
-                    left.push(between(polygon[next], here, sides[next] / (sides[next] - sides[i])));
+                    left.push(interpolated(
+                        polygon[next],
+                        here,
+                        sides[next] / (sides[next] - sides[i]),
+                    ));
                 }
             }
             polygon = left;
@@ -532,7 +540,7 @@ const PLANES: [Vec4; 6] = [
     Vec4::new(0.0, -1.0, 0.0, GUARD),
 ];
 
-fn between(from: ClippedCorner, to: ClippedCorner, share: f32) -> ClippedCorner {
+fn interpolated(from: ClippedCorner, to: ClippedCorner, share: f32) -> ClippedCorner {
     let weights =
         std::array::from_fn(|i| from.weights[i] + (to.weights[i] - from.weights[i]) * share);
     ClippedCorner { clip: from.clip + (to.clip - from.clip) * share, weights }

@@ -13,11 +13,11 @@ use crate::mesh::Mesh;
 #[must_use]
 pub fn position_at(mesh: &Mesh, fragment: Fragment) -> Vec3 {
     let corners = mesh.triangles[fragment.triangle as usize].corners;
-    between(fragment, corners.map(|corner| Vec3::from(mesh.positions[corner as usize])))
+    interpolated(fragment, corners.map(|corner| Vec3::from(mesh.positions[corner as usize])))
 }
 
 #[inline(always)]
-fn between(fragment: Fragment, [a, b, c]: [Vec3; 3]) -> Vec3 {
+fn interpolated(fragment: Fragment, [a, b, c]: [Vec3; 3]) -> Vec3 {
     a + (b - a) * fragment.second + (c - a) * fragment.third
 }
 
@@ -83,7 +83,7 @@ impl<'a> SurfacePoint<'a> {
     #[must_use]
     #[inline]
     pub fn position(&self) -> Vec3 {
-        between(self.fragment, self.corners.map(|corner| corner.position.into()))
+        interpolated(self.fragment, self.corners.map(|corner| corner.position.into()))
     }
 
     /// The interpolated normal on the side of the surface that faces `eye`, of length 1. If the
@@ -91,7 +91,7 @@ impl<'a> SurfacePoint<'a> {
     #[must_use]
     #[inline]
     pub fn normal(&self, eye: Vec3) -> Vec3 {
-        let normal = between(self.fragment, self.corners.map(|corner| corner.normal.into()));
+        let normal = interpolated(self.fragment, self.corners.map(|corner| corner.normal.into()));
         let length = normal.length();
         let normal = if length > 0.0 { normal / length } else { Vec3::ZERO };
         if self.faces_away(eye) { -normal } else { normal }
@@ -103,7 +103,8 @@ impl<'a> SurfacePoint<'a> {
     #[inline]
     pub fn albedo(&self) -> Vec3 {
         let color = Vec3::from(self.material.color);
-        let color = color * between(self.fragment, self.corners.map(|corner| corner.color.into()));
+        let color =
+            color * interpolated(self.fragment, self.corners.map(|corner| corner.color.into()));
         if self.material.width == 0 {
             return color;
         }
@@ -194,7 +195,7 @@ impl<'a> FourPoints<'a> {
     #[must_use]
     #[inline]
     pub fn normals(&self, eye: Vec3) -> FourVectors {
-        let [x, y, z] = self.between(|corner| corner.normal);
+        let [x, y, z] = self.interpolated(|corner| corner.normal);
         let length = dot_products([x, y, z], [x, y, z]).to_array().map(f32::sqrt);
         if !length.iter().all(|&length| length > 0.0) {
             let normals = self.points.map(|point| point.normal(eye));
@@ -214,13 +215,13 @@ impl<'a> FourPoints<'a> {
             let colors = self.points.map(|point| point.albedo());
             return [0, 1, 2].map(|channel| Vec4::from_array(colors.map(|color| color[channel])));
         }
-        let [red, green, blue] = self.between(|corner| corner.color);
+        let [red, green, blue] = self.interpolated(|corner| corner.color);
         let [own_red, own_green, own_blue] = material.color;
         [red * own_red, green * own_green, blue * own_blue]
     }
 
     #[inline(always)]
-    fn between(&self, value: impl Fn(&Vertex) -> [f32; 3]) -> FourVectors {
+    fn interpolated(&self, value: impl Fn(&Vertex) -> [f32; 3]) -> FourVectors {
         let [a, b, c] = self.points[0].corners().map(value);
         [0, 1, 2].map(|axis| {
             let [b, c] = [b[axis] - a[axis], c[axis] - a[axis]];

@@ -127,8 +127,8 @@ impl Head {
         self.imprint.paint_grid()
     }
 
-    /// Rows of paint cells that hold the paint of a fresh load: all rows of hair, those at the edge
-    /// of a blade.
+    /// Rows of paint cells that hold the paint of a fresh load. For a brush these are all rows of
+    /// hair, for a blade the rows at its edge.
     #[must_use]
     pub fn rows_with_paint(&self) -> Range<usize> {
         let rows = self.paint_grid().1;

@@ -107,7 +107,7 @@ mod mark_tests {
 
     const CELL_MM: f64 = 0.2;
     const BOUNDS: Rect = Rect { x: 0, y: 0, width: 600, height: 600 };
-    /// Way of a stroke, and the part of it after which the mark is measured, in cells.
+    /// Length of a stroke, and the length after which we measure the mark, in cells.
     const WAY: (u32, u32) = (150, 100);
     /// Leans, with the heading of the stroke.
     const HOLDS_DEG: [(f64, f64); 7] = [
@@ -145,9 +145,9 @@ mod mark_tests {
     #[derive(Debug, Clone, Copy)]
     struct Mark {
         width_mm: f64,
-        /// From the way of the pen to the middle of the mark.
+        /// Distance from the path of the pen to the middle of the mark.
         offset_mm: f64,
-        /// From the middle of the contact to the pen, along the way.
+        /// Distance from the middle of the contact to the pen, along the path.
         behind_mm: f64,
         /// Largest distance along the way from the middle of a contact to the pen.
         farthest_mm: f64,

@@ -129,7 +129,7 @@ impl Spines {
         self.settle(grip, relief);
     }
 
-    /// Whether a blade lies on its other side at `grip` than it did.
+    /// Whether the blade turns over to its other side at `grip`.
     pub(super) fn turns_over(&self, grip: &Grip) -> bool {
         self.of.rigid && self.axis.dot(grip.axis) < 0.0
     }
@@ -342,8 +342,9 @@ impl Hair<'_> {
         Laid { places, lying }
     }
 
-    /// Horizontal way from the ferrule, `high` over a plane, to the middle of the contact of a
-    /// head. `width` is its width along the hair. If it does not touch, this is the way to its tip.
+    /// Horizontal offset from the ferrule, which is `high` above a plane, to the middle of the
+    /// contact of a head. `width` is the width of the head along the hair. If the head does not
+    /// touch, this is the offset to its tip.
     pub(super) fn middle(&self, high: f32, width: &[f32; NODES]) -> Vector {
         let rest = std::array::from_fn::<_, NODES, _>(|level| {
             (self.length * level as f32 / (NODES - 1) as f32, 0.0)
@@ -393,8 +394,8 @@ impl Hair<'_> {
 /// the canvas.
 const FARTHEST_LEAN_DEG: f64 = 80.0;
 
-/// Component of a handle across a blade, as the sine of its lean, from which the blade is
-/// turned over to that side. Below it the twist decides.
+/// If a handle leans across a blade by more than this (as the sine of the angle), the blade is
+/// turned over to that side. Below this the twist decides.
 const OTHER_SIDE: f32 = 0.17;
 
 /// Angle in degrees between the blade of a knife and the canvas, at pressure 0 and at full

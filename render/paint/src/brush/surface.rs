@@ -98,7 +98,7 @@ impl LimitSurface {
         (facets.0 * cells.0, facets.1 * cells.1)
     }
 
-    /// Tells you whether a facet may reach below the ceiling of the last evaluation.
+    /// Whether a facet may reach below the ceiling of the last evaluation.
     #[inline]
     pub(super) fn is_near(&self, column: usize, row: usize) -> bool {
         self.near[row / self.along.facets * self.columns + column / self.around.facets]

@@ -85,7 +85,7 @@ impl StrokeTool {
         *self == Self::Paint
     }
 
-    /// The tool with its number replaced by `change` of it.
+    /// The tool with `change` applied to its number.
     #[must_use]
     pub fn map(self, change: impl Fn(f64) -> f64) -> Self {
         match self {
@@ -118,10 +118,11 @@ impl StrokeTool {
 /// Distance in mm over which the paint under a rag falls to 1/e at full strength and pressure.
 const ERASE_MM: f64 = 1.0;
 
-/// Height in mm over the crests at which a rag no longer rubs. Below it rubs the more the lower.
+/// Height in mm over the crests at which a rag no longer rubs. The lower the head is below this,
+/// the more it rubs.
 const RUB_MM: f64 = 0.3;
 
-/// Height in mm over the crests up to which the head is the edge of the blade.
+/// The part of the head up to this height over the crests, in mm, is the edge of the blade.
 const EDGE_MM: f64 = 0.3;
 
 /// Distance in mm over which the colours of mop and canvas fall to 1/e of their difference at full

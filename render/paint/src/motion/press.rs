@@ -144,7 +144,8 @@ pub fn velocity(head: i32, volume: u32, before: i32, after: i32) -> i32 {
 }
 
 /// Velocity in 1/16384 cell a sub-step, along x and y, that a head gives to a column of `volume`
-/// quanta: a share of its own for the part that it has penetrated.
+/// quanta. The deeper the head has penetrated the column, the larger the share of its own velocity
+/// that it gives.
 #[inline(always)]
 #[must_use]
 pub fn dragged(rates: &ExchangeRates, touch: Touch, penetration: i32, volume: u32) -> (i32, i32) {

@@ -163,8 +163,8 @@ impl Painting {
         Ok(self.engine.brush_paint(self.brushes[brush.0].id)?)
     }
 
-    /// Replaces the paint on a brush by `paint`, with the slots of this painting's
-    /// palette. Not an action of the history.
+    /// Replaces the paint on a brush by `paint`, with the slots of this painting's palette. This is
+    /// not an action of the history.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.

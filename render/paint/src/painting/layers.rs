@@ -293,8 +293,8 @@ struct Merge {
 
 impl Painting {
     /// Merges two dry layers. The merged layer has the identity of the lower one, and its name
-    /// unless that is empty. It lies where the lower was, or, if the films between overlap that
-    /// one, where the upper was.
+    /// unless that is empty. It lies where the lower layer was. If films between them overlap the
+    /// lower one, it lies where the upper layer was.
     ///
     /// The paints mix, so that films of different paint over each other would change colour. Such
     /// a merge is refused. So is one with a film between that overlaps both.

@@ -149,8 +149,8 @@ impl OpenStroke {
         self.brush.is_some()
     }
 
-    /// Adds samples. [`OpenStroke::advance`] paints them. If one is refused, those before
-    /// it are kept, and the stroke can continue with others.
+    /// Adds samples. [`OpenStroke::advance`] paints them. If we refuse a sample, the samples before
+    /// it stay, and you can continue the stroke with others.
     ///
     /// # Errors
     /// [`StrokeError`] for an impossible sample (its index counts from the first of the
@@ -455,15 +455,15 @@ const BATCH: usize = 32;
 /// stay in the cache (chosen by timing).
 const BATCH_CELLS: usize = 80_000;
 
-/// Number of cells of a contact from which on sub-steps are drawn side by side, if there are
-/// threads for it: below, handing them over takes longer.
+/// If a contact has at least this many cells and there are threads for it, we draw several
+/// sub-steps at once. For smaller contacts, handing the work over takes longer than it saves.
 const WIDE_CELLS: usize = 6_000;
 
 /// Maximum number of sub-steps drawn side by side.
 const SIDE_BY_SIDE: usize = 4;
 
-/// Number of sub-steps after one whose contact has `cells` cells that are drawn side by side on
-/// `threads` threads, of which one or more move the paint.
+/// Number of sub-steps that we draw at once, with contacts of `cells` cells, on `threads` threads.
+/// Some of the threads move the paint.
 fn abreast(cells: usize, threads: usize) -> usize {
     if cells < WIDE_CELLS { 1 } else { (threads / 2).clamp(1, SIDE_BY_SIDE) }
 }

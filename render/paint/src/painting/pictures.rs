@@ -14,8 +14,8 @@ use crate::optics::Scene;
 use crate::scene::{Appearance, PixelsPerCell, SpectralStack, fine_picture};
 
 impl Painting {
-    /// Renders the parts of the picture that are out of date, and returns the tiles rendered
-    /// since the last call. With `second`, the picture under the second light.
+    /// Renders the parts of the picture that are out of date, and returns the tiles rendered since
+    /// the last call. If `second` is true, this is the picture under the second light.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost, or its memory does not suffice for a second
@@ -198,8 +198,8 @@ impl Painting {
         })
     }
 
-    /// Also keeps a picture under a second light, for a view that is split between the two.
-    /// `None` frees its memory. Not an action of the history.
+    /// Also keeps a picture under a second light, for a view that is split between the two. `None`
+    /// frees its memory. This is not an action of the history.
     ///
     /// # Errors
     /// [`PaintingError::Light`] if the light is unknown. The second light stays unchanged.

@@ -436,7 +436,7 @@ impl Painting {
 
     /// Begins an adjustment, for example when a slider is dragged. All actions until
     /// [`Painting::end_adjusting`] count as one action in the history, but each takes effect at
-    /// once. Without any, the history stays unchanged.
+    /// once. If there are none, the history stays as it is.
     ///
     /// # Panics
     /// If a stroke or an adjustment is open.

@@ -300,7 +300,7 @@ impl PaintingSession {
     }
 }
 
-/// Share of the memory, as a divisor, that is kept for the surface that uses less.
+/// We reserve one part in this many of the memory for the surface that uses less of it.
 const RESERVED: u64 = 8;
 
 impl PaintingSession {
@@ -389,8 +389,8 @@ impl PaintingSession {
         self.limit_history();
     }
 
-    /// Drops the actions that cannot be reached any more, as a painting has dropped one after them
-    /// (or, of undone ones, before them), and shares the memory out anew.
+    /// Drops the actions that you can no longer reach, because a painting has dropped a later one
+    /// (of undone actions, an earlier one). Then divides the memory anew.
     pub(super) fn limit_history(&mut self) {
         self.drop_unreachable();
         let reserved = if self.palette.is_some() { self.undo_limit / RESERVED } else { 0 };

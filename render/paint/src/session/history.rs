@@ -81,7 +81,8 @@ impl SharedHistory {
         self.entries().map(|entry| entry.label.as_str()).collect()
     }
 
-    /// Number of the action before these, 0 if there is none, then their own in the same order.
+    /// The number of the action before these (0 if there is none), then the numbers of these
+    /// actions in their order.
     pub(super) fn numbers(&self) -> Vec<u64> {
         [self.beginning].into_iter().chain(self.entries().map(|entry| entry.number)).collect()
     }
@@ -122,13 +123,13 @@ pub(super) struct Record {
 }
 
 impl Record {
-    /// An empty recording with this header, whose numbers must be rounded.
+    /// An empty recording with this header. Round the numbers of the header first.
     pub(super) fn new(header: StrokeScript) -> Self {
         Self { script: header, samples: 0, bytes: 0, limits: Limits::default(), stopped: None }
     }
 
-    /// A recording that continues `script`, whose numbers must be rounded. Further brushes have the
-    /// names of [`Record::add`].
+    /// A recording that continues `script`. Round the numbers of the script first. Further brushes
+    /// have the names of [`Record::add`].
     pub(super) fn resumed(mut script: StrokeScript) -> Self {
         let actions = std::mem::take(&mut script.actions);
         let mut record = Self::new(script);

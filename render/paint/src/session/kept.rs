@@ -132,8 +132,8 @@ impl PaintingSession {
     }
 }
 
-/// Most paint in a cell of a brush that is taken up, in quanta: half of what a cell can hold, so
-/// that it still fits into one of the canvas.
+/// If a cell of a saved brush has more paint than this, in quanta, we do not restore the paint.
+/// This is half of what a cell can hold, so that the paint still fits into a cell of the canvas.
 const MOST: u32 = MAX_COLUMN / 2;
 
 impl PaintingSession {
@@ -154,10 +154,10 @@ impl PaintingSession {
         Ok(kept.collect())
     }
 
-    /// Adds brushes with the paint that they held when they were kept, under the pigments of this
-    /// session, before anything else is done in it. Returns the names of those that are left clean:
-    /// their heads have other cells than in the version that kept them, or hold more than a brush
-    /// can.
+    /// Adds saved brushes with their paint, under the pigments of this session. Call this before
+    /// you do anything else in the session. Returns the names of the brushes that stay clean,
+    /// because their heads have other cells than in the version of the program that saved them, or
+    /// because they hold too much paint.
     ///
     /// It is no action of history and recording: a recording of such a session replays on a
     /// session that has taken up the same brushes.

@@ -51,8 +51,8 @@ impl PaintingSession {
         Ok(self.brushes.find(brush).ok_or_else(unknown)?)
     }
 
-    /// Rounds samples and adds them to the open stroke. [`PaintingSession::advance`] paints
-    /// them. If one is refused, those before it count, and the stroke stays open.
+    /// Rounds samples and adds them to the open stroke. [`PaintingSession::advance`] paints them.
+    /// If we refuse a sample, the samples before it count, and the stroke stays open.
     ///
     /// # Errors
     /// [`PaintingError`] for an impossible sample (its index counts from the first of the
@@ -137,8 +137,8 @@ impl PaintingSession {
         self.stroke.as_ref()
     }
 
-    /// Paints a whole stroke. One that is `cut` is not lifted at its end. A stroke that is too long
-    /// is refused before any of it is painted.
+    /// Paints a whole stroke. If it is `cut`, we do not lift the brush at its end. We refuse a
+    /// stroke that is too long before we paint any of it.
     pub(super) fn apply_stroke(
         &mut self,
         Stroke { brush, on, tool, samples }: &Stroke,
@@ -156,9 +156,9 @@ impl PaintingSession {
         Ok(report)
     }
 
-    /// The open stroke as the action that paints what is painted of it, once nothing known waits
-    /// (see [`PaintingSession::advance`]), with the recorded name of its brush. `None` without a
-    /// sample.
+    /// An action that paints what we have painted of the open stroke so far. Call this when no
+    /// known sample waits (see [`PaintingSession::advance`]). It has the recorded name of the
+    /// brush. `None` if the stroke has no sample.
     pub(super) fn cut_so_far(&self) -> Option<Action> {
         let mut stroke = self.stroke.as_ref().filter(|open| open.is_open())?.stroke().clone();
         let tool = self.brushes.find(&stroke.brush)?;

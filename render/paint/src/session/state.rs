@@ -157,8 +157,8 @@ impl PaintingSession {
         }
     }
 
-    /// Painting of a surface, for reading its pictures and paint. Change it only through
-    /// the session, whose history does not know of other changes.
+    /// Painting of a surface, for reading its pictures and paint. Change it only through the
+    /// session, because the history of the session does not know of other changes.
     pub fn painting_mut(&mut self, surface: SurfaceId) -> Option<&mut Painting> {
         match surface {
             SurfaceId::Canvas => Some(&mut self.canvas),
@@ -247,8 +247,8 @@ impl PaintingSession {
         self.record.as_ref().map(|record| &record.script)
     }
 
-    /// Reason why the recording ended early, if it did: it holds no more than a script may, or
-    /// the backend failed. The session goes on without recording.
+    /// Why the recording ended early, if it did: a script may not be longer, or the backend failed.
+    /// The session goes on without recording.
     #[must_use]
     pub fn recording_stopped(&self) -> Option<&str> {
         self.record.as_ref()?.stopped.as_deref()

@@ -34,8 +34,8 @@ pub enum Action {
     /// Moves a brush over a surface, to paint or to blend, scrape or erase wet paint.
     Stroke(Stroke),
     /// Moves a brush over a surface without lifting it at the end. A recording ends in this way if
-    /// you kill its program within a stroke. We do not paint its last way, which lags one sample
-    /// behind, and the paint does not level.
+    /// you kill its program within a stroke. We do not paint the end of its path, because painting
+    /// is one sample behind, and the paint does not level.
     Cut(Stroke),
     /// Wipes paint off a brush.
     Wipe {
@@ -104,7 +104,7 @@ pub enum Action {
     Merge {
         /// One of the two, which must be dry.
         layer: LayerRef,
-        /// The other one. The layer below by default.
+        /// The other layer. By default, this is the layer below.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         with: Option<LayerRef>,
     },

@@ -96,9 +96,9 @@ impl StrokeScript {
         Ok((canvas, palette.transpose()?))
     }
 
-    /// The canvas and the palette before the first action, and the brushes with their loads, of a
-    /// script that may continue a painting with the table beside it (key `table`). Without that
-    /// key it is [`StrokeScript::surfaces`], and no brushes.
+    /// The canvas, the palette and the brushes with their paint before the first action. With the
+    /// key `table`, the script continues a painting together with the palette and the brushes that
+    /// are saved beside it. Without this key, you get [`StrokeScript::surfaces`] and no brushes.
     ///
     /// # Errors
     /// [`ScriptStartError`] in the cases of [`StrokeScript::surfaces`], if the script asks for a

@@ -37,7 +37,7 @@ pub enum Interval {
     /// After every so many seconds of painting, 0.01 to 86,400. We count the time of strokes on the
     /// canvas, without pauses and without mixing on the palette.
     Seconds(f64),
-    /// So many frames in all, 2 and up. We spread them evenly over the painting time, or over the
+    /// This many frames in all, 2 and up. We spread them evenly over the painting time, or over the
     /// actions if the strokes did not take time. You get fewer if some moments do not differ by a
     /// sample.
     Frames(usize),
@@ -331,7 +331,7 @@ impl<'a> Timelapse<'a> {
     }
 }
 
-/// Share of the work of playing an action.
+/// Work of playing an action, relative to the work of other actions.
 fn weight(action: &Action) -> usize {
     action.stroke().map_or(1, |stroke| stroke.samples.len())
 }

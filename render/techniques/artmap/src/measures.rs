@@ -277,9 +277,9 @@ pub fn wrap_ratio(map: &Texture) -> f64 {
     if mean(inside) > 0.0 { mean(across) / mean(inside) } else { 1.0 }
 }
 
-/// The ratio that 95 of 100 places inside the map stay below. For this we take a column and a row
-/// inside for the borders of [`wrap_ratio`]. If the border is above this value, it stands out.
-/// Strokes that happen to end at one place raise both.
+/// The ratio of [`wrap_ratio`] that 95 of 100 places inside the map stay below, where each inner
+/// column and row counts as if it were the border. If the border is above this value, it stands
+/// out. Strokes that happen to end at one place raise both.
 #[must_use]
 pub fn usual_wrap_ratio(map: &Texture) -> f64 {
     let (width, height) = map.size();

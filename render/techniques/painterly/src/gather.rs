@@ -13,8 +13,8 @@ use super::coloring::Coloring;
 use super::splats::{Lie, SIDE, Square, StrokeSplat, Values, bowl, bring_forward, nearness};
 use super::tones::Tones;
 
-/// We take this share of the sum, a step of 8 bits, from each weight and leave out the weights that
-/// have no more. So splats come in without a step.
+/// We subtract this share of the sum (a step of 8 bits) from each weight and leave out weights that
+/// are not larger. So splats appear without a step.
 const NEGLIGIBLE: f32 = 1.0 / 256.0;
 
 /// We multiply weights by this before we raise them to a power, so that the weights of a thin cover
@@ -256,7 +256,7 @@ pub(super) fn shown<'a>(
                 }
                 let [u, v] = [place[0][column] as usize, place[1][column] as usize];
                 let [a, b] = [share[0][column] as u32, share[1][column] as u32];
-                let texel = texels.between(u, v, a, b);
+                let texel = texels.interpolated(u, v, a, b);
                 let high = furrow + texel[3] * ridges;
                 let own_weight = own_weight * high * high;
                 let pixel = [row, column];

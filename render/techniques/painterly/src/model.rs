@@ -12,14 +12,15 @@ use glam::Vec3;
 use graphics::mesh::{DirectionField, DirectionSettings, Guide, Mesh};
 use graphics::surface::PackedMesh;
 
-/// Share of the longer side of a picture that a model fills at the size at which strokes have the
-/// size of the settings: the height of a picture of 4 : 3, less a margin.
+/// If a model fills this share of the longer side of a picture, strokes have the size of the
+/// settings. It is the height of a 4 : 3 picture less a margin.
 const FILLED: f32 = 0.69;
 
-/// We keep strokes up to this many times the density that a model needs which fills the picture.
+/// We keep strokes up to this many times the density that we need if a model fills the picture.
 const MORE: f32 = 2.0;
 
-/// Radians by which a surface bends within half a stroke where usual settings show smaller ones.
+/// With default settings, smaller strokes show where a surface bends by more than this within half
+/// a stroke, in radians.
 const BEND: f32 = 0.6;
 
 impl Painter {

@@ -59,9 +59,9 @@ pub struct Painter {
     /// The paint of the maps, if they have any. If maps cannot be joined in paint, you can still
     /// use their colours.
     paint: Result<Option<PaintTones>, PaintOfMapsError>,
-    /// Films of the subject's own colours.
+    /// Height of the films that show the subject's own colours.
     film: FilmHeight,
-    /// Pigments for them, if not from the maps' library.
+    /// Pigments of these films, if they do not come from the library of the maps.
     pigments: Option<(Arc<PigmentLibrary>, Option<Slots>)>,
     /// The ground of the last painting.
     pub(super) ground: Option<BuiltGround>,
@@ -107,7 +107,8 @@ impl Painter {
             let features = Features::new(Arc::clone(&hierarchy), own.strokes.seed);
             let roots = Roots::new(surface, Arc::clone(&coloring), lightness);
             let density = (more, own.reference_px / units);
-            let (roots, matched) = kept(roots, &features, (&tones, &slices), &own, density);
+            let (roots, matched) =
+                with_kept_strokes(roots, &features, (&tones, &slices), &own, density);
             strokes += roots.count();
             continued += matched * roots.count() as f64;
             layers.push(Layered { features, roots });
@@ -307,7 +308,7 @@ impl Painter {
             .unwrap_or_else(|| (Arc::new(PigmentLibrary::van_gogh_oils()), None))
     }
 
-    /// Films of the subject's own colours.
+    /// Height of the films that show the subject's own colours.
     pub(super) fn film(&self) -> FilmHeight {
         self.film
     }
@@ -339,9 +340,9 @@ fn divide<'a>(
     Divide { tones, coloring: layer.roots.coloring(), overhang: overlap.overhang, thin }
 }
 
-/// Keeps the strokes that a picture of the settings needs, `more` times as many, at so many pixels
-/// to a unit of the subject. Returns the share of them that continue a neighbour.
-fn kept(
+/// Keeps the strokes that a picture of `per_unit` pixels per unit of the subject needs, at up to
+/// `more` times its density. Returns the share of them that continue a neighbour.
+fn with_kept_strokes(
     roots: Roots,
     features: &Features,
     (tones, slices): (&Tones, &[usize]),
@@ -492,7 +493,7 @@ fn add(lower: &mut Field<f32>, upper: &Field<f32>) {
     lower.values_mut().iter_mut().zip(upper.values()).for_each(|(lower, upper)| *lower += upper);
 }
 
-/// A ground, and what it was built from but for the library.
+/// A ground, and everything that we built it from except the library.
 #[derive(Debug)]
 pub(super) struct BuiltGround {
     spec: GroundSpec,
@@ -503,7 +504,7 @@ pub(super) struct BuiltGround {
 
 impl BuiltGround {
     /// The ground of a painting of this size and width of cells. We keep it for the next one.
-    pub(super) fn kept(
+    pub(super) fn reused_or_built(
         kept: &mut Option<Self>,
         spec: &GroundSpec,
         (size, cell_mm): ((usize, usize), f64),
@@ -657,7 +658,8 @@ mod tests {
         let mut kept = None;
         let mut built = |kind: GroundKind, size: (usize, usize), cell_mm: f64| {
             let spec = kind.spec(1);
-            let found = BuiltGround::kept(&mut kept, &spec, (size, cell_mm), &library).unwrap();
+            let found =
+                BuiltGround::reused_or_built(&mut kept, &spec, (size, cell_mm), &library).unwrap();
             assert_eq!(found, spec.build(size.0, size.1, cell_mm, &library).unwrap());
         };
         for size in [(12, 9), (12, 9), (9, 12)] {

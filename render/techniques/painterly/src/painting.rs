@@ -57,7 +57,8 @@ impl Painter {
         };
         let Mixed { of: PaintOfSamples { library, slots }, layers } = mixed;
         let cell_mm = self.cell_mm(size);
-        let ground = BuiltGround::kept(&mut self.ground, ground, (size, cell_mm), &library)?;
+        let ground =
+            BuiltGround::reused_or_built(&mut self.ground, ground, (size, cell_mm), &library)?;
         let medium = Medium::of(&library);
         let library = library.as_ref().clone();
         let lighting = Lighting::default();

@@ -660,7 +660,9 @@ mod tests {
             });
             let bytes = |x: f64, y: f64| {
                 let wrapped = |at: f64| at.rem_euclid(size) as usize % texels.size;
-                texels.between(wrapped(x), wrapped(y), 0, 0).map(|byte| f64::from(byte) / 256.0)
+                texels
+                    .interpolated(wrapped(x), wrapped(y), 0, 0)
+                    .map(|byte| f64::from(byte) / 256.0)
             };
             let [x, y] = place.map(f64::floor);
             let [right, down] = [place[0] - x, place[1] - y];

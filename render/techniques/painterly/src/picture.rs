@@ -420,7 +420,7 @@ impl FlowPicture {
 /// Cells of a layer to the distance of its strokes.
 const CELLS: f32 = 3.0;
 
-/// Difference in CIELAB at which usual settings show smaller strokes.
+/// With default settings, smaller strokes show where colours differ by more than this in CIELAB.
 const DIFFERENCE: f32 = 7.0;
 
 /// A picture as the strokes of one layer show it.

@@ -54,7 +54,7 @@ pub(super) enum Detail {
 pub(super) struct Surface {
     /// The mesh with the normals that light meets.
     pub(super) mesh: Arc<Mesh>,
-    /// That mesh with the colours of this layer.
+    /// The mesh with the colours of this layer.
     pub(super) packed: Arc<PackedMesh>,
     pub(super) directions: Arc<Directions>,
     pub(super) detail: Detail,
@@ -242,7 +242,7 @@ pub(super) struct Subject {
     /// Units of the subject along the longer side of a picture in which strokes have the size of the
     /// settings.
     pub(super) units: f32,
-    /// Strokes are kept up to this many times the density of that picture.
+    /// We keep strokes up to this many times the density that such a picture needs.
     pub(super) more: f32,
 }
 

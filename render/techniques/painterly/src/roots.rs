@@ -166,7 +166,7 @@ impl Roots {
     }
 
     /// The stroke of a feature, which need not continue others.
-    pub(super) fn single(&self, feature: &Feature) -> Root {
+    pub(super) fn unmatched(&self, feature: &Feature) -> Root {
         match self.seeds.binary_search(&feature.seed) {
             Ok(index) => self.kept[index],
             Err(_) => self.made(feature),
@@ -279,7 +279,7 @@ impl Greys {
         let halvings = tones.halvings(map, tones.map(map).spacing / COMPARED_SPACING);
         let texels = tones.texels(slice, halvings);
         let size = texels.size;
-        let bytes = (0..size * size).map(|at| texels.between(at % size, at / size, 0, 0));
+        let bytes = (0..size * size).map(|at| texels.interpolated(at % size, at / size, 0, 0));
         let values: Vec<f32> = bytes.map(|[first, ..]| first / 256.0).collect();
         let mean = values.iter().sum::<f32>() / values.len() as f32;
         let variance = values.iter().map(|value| (value - mean).powi(2)).sum::<f32>();

@@ -146,7 +146,7 @@ documents::settings! {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Offsets {
-    /// Where its strokes continue those of its neighbours.
+    /// Where the strokes of the splat continue the strokes of its neighbours.
     #[default]
     Matched,
     /// Anywhere (Yan and others 2008).
@@ -163,8 +163,8 @@ documents::settings! {
 }
 
 impl LayerSettings {
-    /// How much of a layer above the lowest shows where something is `amount` times as much as
-    /// usual settings let pass: 0 to 1, without a step.
+    /// How much of a layer above the lowest shows, 0 to 1, where the detail is `amount` times what
+    /// default settings let pass. It changes without a step.
     pub(crate) fn shown(&self, amount: f32) -> f32 {
         // Half of the way lets pass what is usual, the end nothing.
         let passed = (1.0 - self.detail) / self.detail.max(1e-6);
@@ -230,7 +230,7 @@ documents::settings! {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ColorSource {
-    /// Those of the map on a model, a picture's own.
+    /// On a model, the colours of the map. On a picture, its own.
     #[default]
     Auto,
     /// The map's own colours.

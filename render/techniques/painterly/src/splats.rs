@@ -237,7 +237,8 @@ impl Square {
         shape
     }
 
-    /// Where the plane of a splat lies on the mesh, as a share of 0 to 1, and where before it.
+    /// For each pixel, the share of 0 to 1 with which the plane of a splat lies on the mesh, and
+    /// the share with which it lies before the mesh.
     #[inline(always)]
     pub(super) fn shares(&self, splat: &StrokeSplat, plane: &Values) -> [Values; 2] {
         let mut shares = [[[0.0; SIDE]; SIDE]; 2];

@@ -29,8 +29,9 @@ const FACING: [f32; 2] = [0.0, 0.6];
 /// Cosines between eye and normal over which splats begin to cover.
 const COVERING: [f32; 2] = [0.0, 0.2];
 
-/// Lengths of the projected direction, by its own length, over which splats gain weight: the
-/// direction of strokes that run towards the eye is not stable.
+/// A splat gains weight while the length of its projected direction rises from the first value to
+/// the second, relative to its true length. The direction of strokes that run towards the eye is
+/// not stable.
 const LENGTH: [f32; 2] = [0.05, 0.35];
 
 /// Weight of strokes that run towards the eye. With this they show only where there are no others.
@@ -58,12 +59,11 @@ pub(super) struct Sight<'a> {
     pub(super) phase: f32,
     /// Settings for the size of the picture.
     pub(super) settings: &'a Settings,
-    /// Pixels to a unit of the model at the distance at which strokes have the size of the
-    /// settings.
+    /// Pixels per unit of the model at the distance at which strokes have the size of the settings.
     pub(super) px_per_unit: f32,
     /// Distance of the middle of the model in front of the eye, above 0.
     pub(super) distance: f32,
-    /// For each triangle whether it is hidden where it turns away, empty where all are seen.
+    /// For each triangle, whether we hide it if it faces away. Empty if you see all triangles.
     pub(super) closed: &'a [bool],
 }
 
@@ -309,7 +309,7 @@ pub(super) fn outlines(
     seen.par_iter()
         .with_min_len(256)
         .filter_map(|seen: &SeenFeature| {
-            outline(seen, (&roots.single(&seen.feature), roots), tones, sight, (radii, end))
+            outline(seen, (&roots.unmatched(&seen.feature), roots), tones, sight, (radii, end))
         })
         .collect()
 }
@@ -387,8 +387,9 @@ pub(super) fn twinkled(twinkles: u32, phase: f32, own: f32) -> f32 {
 }
 
 /// Change of the place in the map along the stroke, in widths of the map, at a `phase` of the loop
-/// (equation 11 of Yan and others 2008). Strokes move by a whole number of widths in a loop, up to
-/// `periods`, the more the stronger the flow is, 0 to 1: so every loop closes.
+/// (equation 11 of Yan and others 2008). In a loop, strokes move by a whole number of widths, so
+/// that every loop closes. This number is `periods` for the strongest flow (1), and less for weaker
+/// flow.
 pub(super) fn moved(strength: f32, phase: f32, periods: u32) -> f32 {
     let periods = (periods as f32 * strength.clamp(0.0, 1.0)).round();
     // The brushwork moves along the arrow if the place in the map moves against it.

@@ -103,7 +103,7 @@ impl Tones {
         Self { slices, maps, low, step }
     }
 
-    /// A map, in the order in which they were given.
+    /// The map with this number, in the order in which you gave them.
     #[inline(always)]
     pub(super) fn map(&self, map: usize) -> &LaidMap {
         &self.maps[map]
@@ -199,7 +199,13 @@ impl Texels {
     /// The bytes of the four texels around a place, their weights in 256ths across and down.
     /// Returns 256 times the interpolated bytes.
     #[inline(always)]
-    pub(super) fn between(&self, column: usize, row: usize, across: u32, down: u32) -> [f32; 4] {
+    pub(super) fn interpolated(
+        &self,
+        column: usize,
+        row: usize,
+        across: u32,
+        down: u32,
+    ) -> [f32; 4] {
         // Nothing here wraps. We say this with `wrapping_*`, so that tests are as fast as programs.
         let stride = self.size.wrapping_add(1);
         let at = row.wrapping_mul(stride).wrapping_add(column);
@@ -447,7 +453,7 @@ mod tests {
         let details =
             coloring.details(0, coloring.mean(0, &map.keys[0].tile.color), &map.keys[0].tile.color);
         for (x, y) in [(0, 0), (5, 9), (size - 1, size - 1)] {
-            let found = tones.values(texels.between(x, y, 0, 0).map(|byte| byte / 256.0));
+            let found = tones.values(texels.interpolated(x, y, 0, 0).map(|byte| byte / 256.0));
             let wanted = details[y * size + x];
             assert!((found[0] - wanted.x).abs() <= 0.51 * tones.step[0] + 1e-6);
             assert!((found[1] - wanted.y).abs() <= 0.51 * tones.step[1] + 1e-6);
@@ -456,10 +462,10 @@ mod tests {
             let height = height.clamp(tones.low[3], most);
             assert!((found[3] - height).abs() <= 0.51 * tones.step[3] + 1e-6);
         }
-        let beyond = texels.between(size - 1, size - 1, 256, 256);
-        assert_eq!(beyond, texels.between(0, 0, 0, 0));
-        let middle = texels.between(3, 4, 128, 0);
-        let [left, right] = [3, 4].map(|column| texels.between(column, 4, 0, 0));
+        let beyond = texels.interpolated(size - 1, size - 1, 256, 256);
+        assert_eq!(beyond, texels.interpolated(0, 0, 0, 0));
+        let middle = texels.interpolated(3, 4, 128, 0);
+        let [left, right] = [3, 4].map(|column| texels.interpolated(column, 4, 0, 0));
         for channel in 0..4 {
             let mean = (left[channel] + right[channel]) / 2.0;
             assert!((middle[channel] - mean).abs() <= 128.0, "{middle:?}");
@@ -476,7 +482,7 @@ mod tests {
         fn mean(halvings: usize, tones: &Tones) -> f32 {
             let texels = tones.texels(4, halvings);
             let size = texels.size;
-            let all = (0..size * size).map(|at| texels.between(at % size, at / size, 0, 0)[0]);
+            let all = (0..size * size).map(|at| texels.interpolated(at % size, at / size, 0, 0)[0]);
             all.sum::<f32>() / 256.0 / (size * size) as f32
         }
         assert!(

@@ -75,7 +75,7 @@ pub enum SavedError {
 pub(crate) trait Stored: Sized {
     fn store(&self, bytes: &mut Vec<u8>);
 
-    /// Reads one. `None` if the bytes end too early, or are not such a value.
+    /// Reads one value. `None` if the bytes end too early or do not encode such a value.
     fn read(from: &mut Reader<'_>) -> Option<Self>;
 }
 
@@ -193,7 +193,7 @@ pub(crate) fn identity<'t>(texts: impl IntoIterator<Item = &'t str>) -> [u8; DIG
 }
 
 /// Puts the bytes of a state into a file of this `identity`.
-pub(crate) fn sealed(kind: Kind, identity: &[u8; DIGEST], state: &[u8]) -> Vec<u8> {
+pub(crate) fn file_of_state(kind: Kind, identity: &[u8; DIGEST], state: &[u8]) -> Vec<u8> {
     let mut file = Vec::with_capacity(kind.format.len() + 4 + 2 * DIGEST + state.len());
     file.extend_from_slice(kind.format);
     kind.version.store(&mut file);
@@ -206,7 +206,7 @@ pub(crate) fn sealed(kind: Kind, identity: &[u8; DIGEST], state: &[u8]) -> Vec<u
 
 /// Takes the bytes of the state out of a file. It must be undamaged, and of this kind and
 /// `identity`.
-pub(crate) fn opened<'f>(
+pub(crate) fn state_of_file<'f>(
     kind: Kind,
     identity: &[u8; DIGEST],
     file: &'f [u8],
@@ -261,21 +261,21 @@ mod tests {
         let kind = Kind { format: b"impasto-of-tests", version: 3, name: "test" };
         let own = identity(["mine", "too"]);
         assert_ne!(own, identity(["minetoo"]));
-        let file = sealed(kind, &own, b"state");
-        assert_eq!(opened(kind, &own, &file), Ok(&b"state"[..]));
-        assert_eq!(opened(kind, &identity(["yours"]), &file), Err(SavedError::Other));
+        let file = file_of_state(kind, &own, b"state");
+        assert_eq!(state_of_file(kind, &own, &file), Ok(&b"state"[..]));
+        assert_eq!(state_of_file(kind, &identity(["yours"]), &file), Err(SavedError::Other));
         let newer = Kind { version: 4, ..kind };
         let version = SavedError::Version { kind: "test", found: 3, read: 4 };
-        assert_eq!(opened(newer, &own, &file), Err(version));
+        assert_eq!(state_of_file(newer, &own, &file), Err(version));
         for cut in 0..file.len() {
-            assert_eq!(opened(kind, &own, &file[..cut]), Err(SavedError::Damaged), "{cut}");
+            assert_eq!(state_of_file(kind, &own, &file[..cut]), Err(SavedError::Damaged), "{cut}");
         }
         for at in 0..file.len() {
             let mut changed = file.clone();
             changed[at] ^= 4;
-            assert!(opened(kind, &own, &changed).is_err(), "{at}");
+            assert!(state_of_file(kind, &own, &changed).is_err(), "{at}");
         }
         let foreign = SavedError::Foreign { kind: "test" };
-        assert_eq!(opened(kind, &own, b"a picture"), Err(foreign));
+        assert_eq!(state_of_file(kind, &own, b"a picture"), Err(foreign));
     }
 }

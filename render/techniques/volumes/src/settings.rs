@@ -175,8 +175,8 @@ pub fn even_tints(shells: usize) -> Vec<f64> {
     (0..=shells).map(|count| count as f64 / shells.max(1) as f64).collect()
 }
 
-/// Checks shells and the tints that go with them, of which none stands for even steps. `table` is
-/// the path of the table that holds both.
+/// Checks shells and their tints. If there are no tints, they go in even steps. `table` is the path
+/// of the table that holds both.
 pub(crate) fn check_shells(table: &KeyPath, shells: &[f64], tints: &[f64]) -> Checked {
     let list = |numbers: &[f64]| {
         let numbers: Vec<String> = numbers.iter().map(f64::to_string).collect();

@@ -172,8 +172,8 @@ fn golden() -> Golden<Cases> {
 fn films_over_backings() {
     let golden = golden();
     for OverBacking { k, s, d, g, r } in golden.cases.layer {
-        let told = format!("K {k}, S {s}, d {d} over {g}");
-        assert_near(told, &[Layer::new(k, s, d).over(g)], &[r], golden.tolerance);
+        let label = format!("K {k}, S {s}, d {d} over {g}");
+        assert_near(label, &[Layer::new(k, s, d).over(g)], &[r], golden.tolerance);
     }
 }
 
@@ -182,8 +182,8 @@ fn films_by_themselves() {
     let golden = golden();
     for Free { k, s, d, r, t } in golden.cases.free {
         let Layer { reflectance, transmittance, .. } = Layer::new(k, s, d);
-        let told = format!("K {k}, S {s}, d {d}");
-        assert_near(told, &[reflectance, transmittance], &[r, t], golden.tolerance);
+        let label = format!("K {k}, S {s}, d {d}");
+        assert_near(label, &[reflectance, transmittance], &[r, t], golden.tolerance);
     }
 }
 
@@ -211,11 +211,11 @@ fn saunderson_in_both_geometries() {
     for Saunderson { k1, k2, r, included, excluded } in golden.cases.saunderson {
         for (specular, wanted) in [(Specular::Included, included), (Specular::Excluded, excluded)] {
             let surface = Surface::new(k1, k2, specular).unwrap();
-            let told = format!("k1 {k1}, k2 {k2}, {specular:?}, R {r}");
+            let label = format!("k1 {k1}, k2 {k2}, {specular:?}, R {r}");
             let got = surface.measured_from_internal(r);
-            assert_near(&told, &[got], &[wanted], golden.tolerance);
+            assert_near(&label, &[got], &[wanted], golden.tolerance);
             let back = surface.internal_from_measured(wanted).unwrap();
-            assert_near(format!("back to {told}"), &[back], &[r], golden.tolerance);
+            assert_near(format!("back to {label}"), &[back], &[r], golden.tolerance);
         }
     }
 }
@@ -286,14 +286,14 @@ fn xyz_of_reflectances_under_every_light_and_observer() {
                 interpolation(&case.interpolation),
             )
             .unwrap();
-            let told = format!(
+            let label = format!(
                 "{name} under {} for {}, {}",
                 case.illuminant, case.observer, case.interpolation
             );
             let xyz = weights.xyz(&sample.values).to_array();
-            assert_near(&told, &xyz, wanted, golden.tolerance);
+            assert_near(&label, &xyz, wanted, golden.tolerance);
             let white = weights.white().to_array();
-            assert_near(format!("white of {told}"), &white, &case.white, golden.tolerance);
+            assert_near(format!("white of {label}"), &white, &case.white, golden.tolerance);
         }
     }
 }
@@ -335,13 +335,13 @@ fn spectra_on_another_grid() {
         let spectrum = Spectrum::<Response>::new(source.grid(), source.values.clone()).unwrap();
         let to = Grid::from_nm(case.to_start_nm, case.to_step_nm, case.values.len()).unwrap();
         let method = interpolation(&case.method);
-        let told = format!("{} of {} to {to}", case.method, case.spectrum);
+        let label = format!("{} of {} to {to}", case.method, case.spectrum);
         let held = spectrum.resampled(to, method, Extrapolation::Hold).unwrap();
-        assert_near(&told, held.values(), &case.values, golden.tolerance);
+        assert_near(&label, held.values(), &case.values, golden.tolerance);
 
         let inside = [to.start_nm(), to.end_nm()].iter().all(|&nm| source.grid().covers(nm));
         let refused = spectrum.resampled(to, method, Extrapolation::Refuse);
-        assert_eq!(refused.is_ok(), inside, "{told}, ends refused");
+        assert_eq!(refused.is_ok(), inside, "{label}, ends refused");
     }
 }
 

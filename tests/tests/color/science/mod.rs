@@ -78,17 +78,17 @@ fn white_of(light: &str) -> [f64; 3] {
 fn matrices_and_colors_from_white_to_white() {
     let golden: Golden<Vec<Change>> = read("adaptation");
     for case in &golden.cases {
-        let told = format!("{} from {} to {}", case.transform, case.from, case.to);
+        let label = format!("{} from {} to {}", case.transform, case.from, case.to);
         for (light, wanted) in [(&case.from, case.from_white), (&case.to, case.to_white)] {
             assert_near(format!("white of {light}"), &white_of(light), &wanted, golden.tolerance);
         }
         let adaptation = transform(&case.transform);
         let (from, to) = (Xyz::from(case.from_white), Xyz::from(case.to_white));
         let matrix = adaptation.matrix(from, to).0;
-        assert_near(&told, matrix.as_flattened(), case.matrix.as_flattened(), golden.tolerance);
+        assert_near(&label, matrix.as_flattened(), case.matrix.as_flattened(), golden.tolerance);
         for sample in &case.samples {
             let got = adapt(sample.xyz.into(), from, to, adaptation).to_array();
-            assert_near(&told, &got, &sample.adapted, golden.tolerance);
+            assert_near(&label, &got, &sample.adapted, golden.tolerance);
         }
     }
 }
@@ -124,8 +124,8 @@ fn differences_in_every_formula() {
             ("CMC(1:1)", delta_e_cmc(reference, sample, Cmc::PERCEPTIBILITY), pair.cmc_1_1),
         ];
         for (formula, got, wanted) in formulas {
-            let told = format!("{formula} of {:?} and {:?}", pair.reference, pair.sample);
-            assert_near(told, &[got], &[wanted], golden.tolerance);
+            let label = format!("{formula} of {:?} and {:?}", pair.reference, pair.sample);
+            assert_near(label, &[got], &[wanted], golden.tolerance);
         }
     }
 }
@@ -211,10 +211,10 @@ fn lab_from_xyz_and_back() {
     for case in &golden.cases.from_xyz {
         let white = Xyz::from(case.white);
         let lab = Lab::from_xyz(case.xyz.into(), white);
-        let told = format!("XYZ {:?}", case.xyz);
-        assert_near(&told, &lab.to_array(), &case.lab, golden.tolerance);
+        let label = format!("XYZ {:?}", case.xyz);
+        assert_near(&label, &lab.to_array(), &case.lab, golden.tolerance);
         let back = Lab::from(case.lab).to_xyz(white);
-        assert_near(format!("back to {told}"), &back.to_array(), &case.xyz, golden.tolerance);
+        assert_near(format!("back to {label}"), &back.to_array(), &case.xyz, golden.tolerance);
     }
 }
 
@@ -232,15 +232,15 @@ fn lch_from_lab_and_back() {
     let golden = colors();
     for case in golden.cases.from_xyz.iter().chain(&golden.cases.from_lab) {
         let Lch { lightness, chroma, hue_degrees } = Lab::from(case.lab).to_lch();
-        let told = format!("Lab {:?}", case.lab);
-        assert_near(&told, &[lightness, chroma], &case.lch[..2], golden.tolerance);
+        let label = format!("Lab {:?}", case.lab);
+        assert_near(&label, &[lightness, chroma], &case.lch[..2], golden.tolerance);
         if chroma >= GREY {
             // The golden Lab is rounded. This turns the hue more if the chroma is smaller.
             let turn = golden.tolerance * (1.0 + 1f64.to_degrees() / chroma);
-            assert_near(&told, &[hue_degrees], &case.lch[2..], turn);
+            assert_near(&label, &[hue_degrees], &case.lch[2..], turn);
         }
         let back = Lab::from(Lch { lightness, chroma, hue_degrees });
-        assert_near(format!("back to {told}"), &back.to_array(), &case.lab, golden.tolerance);
+        assert_near(format!("back to {label}"), &back.to_array(), &case.lab, golden.tolerance);
     }
 }
 
@@ -255,10 +255,10 @@ fn chromaticity_from_xyz_and_back() {
         // Black has no chromaticity, so it gets the chromaticity of the white.
         let [x, y, z] = case.white;
         let of_white = [x / (x + y + z), y / (x + y + z), 0.0];
-        let told = format!("XYZ {:?}", case.xyz);
-        assert_near(&told, &got, &case.xyy.unwrap_or(of_white), golden.tolerance);
+        let label = format!("XYZ {:?}", case.xyz);
+        assert_near(&label, &got, &case.xyy.unwrap_or(of_white), golden.tolerance);
         let back = Xyz::from(xyy).to_array();
-        assert_near(format!("back to {told}"), &back, &case.xyz, golden.tolerance);
+        assert_near(format!("back to {label}"), &back, &case.xyz, golden.tolerance);
     }
 }
 
@@ -311,7 +311,7 @@ struct LightPair {
 fn metamerism_of_pairs_from_light_to_light() {
     let golden: Golden<Vec<Case>, Pairs> = read("metamerism");
     for case in &golden.cases {
-        let told = format!("{} from {} to {}", case.pair, case.reference, case.test);
+        let label = format!("{} from {} to {}", case.pair, case.reference, case.test);
         let pair = &golden.shared.pairs[&case.pair];
         let grid = Grid::from_nm(pair.start_nm, pair.step_nm, pair.one.len()).unwrap();
         let [reference, test] = [&case.reference, &case.test].map(|light| {
@@ -327,21 +327,21 @@ fn metamerism_of_pairs_from_light_to_light() {
 
         let apart = differences(one[0], two[0], reference.white());
         let wanted = [case.reference_cie1976, case.reference_ciede2000];
-        assert_near(format!("{told}, reference"), &apart, &wanted, golden.tolerance);
+        assert_near(format!("{label}, reference"), &apart, &wanted, golden.tolerance);
 
         let corrected = corrected_to_match(two[1], one[0], two[0]).unwrap();
         let corrected_xyz = corrected.to_array();
         assert_near(
-            format!("{told}, corrected"),
+            format!("{label}, corrected"),
             &corrected_xyz,
             &case.corrected_xyz,
             golden.tolerance,
         );
         let apart = differences(one[1], corrected, test.white());
-        assert_near(&told, &apart, &[case.cie1976, case.ciede2000], golden.tolerance);
+        assert_near(&label, &apart, &[case.cie1976, case.ciede2000], golden.tolerance);
 
         let index = metamerism_index(one, two, test.white()).unwrap();
-        assert_near(format!("{told}, index"), &[index], &[case.ciede2000], golden.tolerance);
+        assert_near(format!("{label}, index"), &[index], &[case.ciede2000], golden.tolerance);
     }
 }
 
@@ -426,11 +426,11 @@ fn display_colors_unclipped() {
                 Some(name) => (Xyz::from(case.white), transform(name)),
                 None => (space.white(), Adaptation::Bradford),
             };
-            let told = format!("{:?} in {name}, {:?}", case.xyz, case.transform);
+            let label = format!("{:?} in {name}, {:?}", case.xyz, case.transform);
             let linear = space.linear_from_xyz(case.xyz.into(), white, adaptation);
-            assert_near(&told, &linear.0, &wanted.linear, golden.tolerance);
+            assert_near(&label, &linear.0, &wanted.linear, golden.tolerance);
             let encoded = space.encoded_from_xyz(case.xyz.into(), white, adaptation);
-            assert_near(&told, &encoded.0, &wanted.encoded, golden.tolerance);
+            assert_near(&label, &encoded.0, &wanted.encoded, golden.tolerance);
         }
     }
 }
@@ -464,23 +464,23 @@ fn whiteness_and_tint_within_the_limits_and_none_beyond() {
     let enough = golden.cases.iter().filter(|case| case.white_enough).count();
     assert!(enough > 0 && enough < golden.cases.len(), "both sides of the limits are tested");
     for case in &golden.cases {
-        let told = format!("{:?} under {} for {}", case.xyz, case.illuminant, case.observer);
+        let label = format!("{:?} under {} for {}", case.xyz, case.illuminant, case.observer);
         let light = Illuminant::named(&case.illuminant).unwrap();
         let observer = observer(&case.observer);
         let found = Whiteness::of(case.xyz.into(), case.white.into(), &light, observer);
-        assert_eq!(found.is_ok(), case.white_enough, "{told}: {found:?}");
+        assert_eq!(found.is_ok(), case.white_enough, "{label}: {found:?}");
         match found {
             Ok(found) => {
                 let found = [found.whiteness, found.tint];
-                assert_near(&told, &found, &case.wanted, golden.tolerance);
+                assert_near(&label, &found, &case.wanted, golden.tolerance);
             }
             Err(WhitenessError::NotWhite { whiteness, .. }) => {
-                assert_near(&told, &[whiteness], &case.wanted[..1], golden.tolerance);
+                assert_near(&label, &[whiteness], &case.wanted[..1], golden.tolerance);
             }
             Err(WhitenessError::Tinted { tint }) => {
-                assert_near(&told, &[tint], &case.wanted[1..], golden.tolerance);
+                assert_near(&label, &[tint], &case.wanted[1..], golden.tolerance);
             }
-            Err(other) => panic!("{told}: {other}"),
+            Err(other) => panic!("{label}: {other}"),
         }
     }
 }

@@ -102,20 +102,24 @@ fn a_map_has_a_tile_of_every_sample_that_agrees_with_the_first() {
     let samples = folder.painted("s.exr", "3", "1");
     let [map, sheet] = ["m.exr", "m.png"].map(|name| folder.file(name));
     let build = ["build", &samples, "--size", "64", "--output", &map];
-    let told = done(&[&build[..], &["--sheet", &sheet, "--json"]].concat()).json();
-    let tiles = told["tiles"].as_array().unwrap();
-    assert_eq!((tiles.len(), told["size"].as_u64()), (3, Some(64)), "{told}");
+    let json = done(&[&build[..], &["--sheet", &sheet, "--json"]].concat()).json();
+    let tiles = json["tiles"].as_array().unwrap();
+    assert_eq!((tiles.len(), json["size"].as_u64()), (3, Some(64)), "{json}");
     let lightness: Vec<f64> =
         tiles.iter().map(|tile| tile["lightness"].as_f64().unwrap()).collect();
-    assert!(lightness[0] + 5.0 < lightness[1], "{told}");
-    assert!(lightness[1] + 5.0 < lightness[2], "{told}");
+    assert!(lightness[0] + 5.0 < lightness[1], "{json}");
+    assert!(lightness[1] + 5.0 < lightness[2], "{json}");
     for tile in tiles {
         let coherence = tile["coherence"].as_f64().unwrap();
-        assert!(coherence >= 0.8, "painted with the same strokes: {told}");
-        assert!(tile["stroke_length"].as_f64().unwrap() > 1.0, "{told}");
+        assert!(coherence >= 0.8, "painted with the same strokes: {json}");
+        assert!(tile["stroke_length"].as_f64().unwrap() > 1.0, "{json}");
     }
-    assert!(told["pigments"].as_array().unwrap().len() >= 3, "{told}");
-    assert_eq!(done(&["show", &map, "--json"]).json(), told, "the file holds all that was told");
+    assert!(json["pigments"].as_array().unwrap().len() >= 3, "{json}");
+    assert_eq!(
+        done(&["show", &map, "--json"]).json(),
+        json,
+        "the file holds everything that was printed"
+    );
     // Tiles, three rows of tones in between, repeats and relief, with 12 pixels around each tile of
     // 64.
     let sheet = image::open(&sheet).unwrap();
@@ -228,12 +232,12 @@ fn tones_are_painted_in_the_pigments_of_a_library_and_shown_again() {
     let oils = repository("measurements/van-gogh-oils.pigments.json");
     let arguments =
         ["paint", "--style", &style, "--tones", "3", "--output", &output, "--sheet", &sheet];
-    let told = done(&[&arguments[..], &["--pigments", &oils, "--json"]].concat()).json();
-    let samples = told["samples"].as_array().unwrap();
+    let json = done(&[&arguments[..], &["--pigments", &oils, "--json"]].concat()).json();
+    let samples = json["samples"].as_array().unwrap();
     assert_eq!(samples.len(), 3);
     let lightness: Vec<f64> =
         samples.iter().map(|sample| sample["lightness"].as_f64().unwrap()).collect();
-    assert!(lightness[0] + 5.0 < lightness[1] && lightness[1] + 5.0 < lightness[2], "{told}");
+    assert!(lightness[0] + 5.0 < lightness[1] && lightness[1] + 5.0 < lightness[2], "{json}");
     for (index, sample) in samples.iter().enumerate() {
         assert_eq!(sample["name"], format!("tone {}", index + 1));
         assert_eq!((&sample["size"], &sample["mm_per_texel"]), (&json!([36, 36]), &json!(0.3)));
@@ -241,9 +245,13 @@ fn tones_are_painted_in_the_pigments_of_a_library_and_shown_again() {
         assert!(0.02 < mean && mean < most && most < 5.0, "{mean} {most}");
     }
     let pigments: Vec<&str> =
-        told["pigments"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
+        json["pigments"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
     assert!(pigments.len() >= 3 && pigments.contains(&"Zinc White"), "{pigments:?}");
-    assert_eq!(done(&["show", &output, "--json"]).json(), told, "the file holds all that was told");
+    assert_eq!(
+        done(&["show", &output, "--json"]).json(),
+        json,
+        "the file holds everything that was printed"
+    );
     // Colours are above, relief is below.
     let sheet = image::open(&sheet).unwrap();
     let side = 8 * 36;

@@ -20,16 +20,15 @@ fn marked_samples_are_upright_of_one_spacing_and_dark_to_light() {
     let marks = folder.write("marks.toml", MARKS);
     let [output, sheet, marked] = ["s.exr", "s.png", "m.png"].map(|name| folder.file(name));
     let arguments = ["sample", &picture, "--marks", &marks, "--output", &output];
-    let told =
-        done(&[&arguments[..], &["--sheet", &sheet, "--marked", &marked, "--json"]].concat());
-    let told = told.json();
+    let run = done(&[&arguments[..], &["--sheet", &sheet, "--marked", &marked, "--json"]].concat());
+    let json = run.json();
     assert_eq!(
-        (&told["provenance"], &told["pigments"]),
+        (&json["provenance"], &json["pigments"]),
         (&json!("picture strokes.png"), &json!([]))
     );
-    let [shade, wall] = [&told["samples"][0], &told["samples"][1]];
+    let [shade, wall] = [&json["samples"][0], &json["samples"][1]];
     assert_eq!((&shade["name"], &wall["name"]), (&json!("shade"), &json!("wall")));
-    assert!(number(&shade["lightness"]) + 20.0 < number(&wall["lightness"]), "{told}");
+    assert!(number(&shade["lightness"]) + 20.0 < number(&wall["lightness"]), "{json}");
     for (sample, degrees) in [(shade, 120.0), (wall, 60.0)] {
         let direction = &sample["direction"];
         assert!((number(&direction["degrees"]) - degrees).abs() < 2.0, "{direction}");
@@ -43,9 +42,9 @@ fn marked_samples_are_upright_of_one_spacing_and_dark_to_light() {
         (&json!("estimated"), &json!("marked"))
     );
     assert!((number(&wall["spacing_px"]) - 10.0).abs() < 0.5, "{wall}");
-    assert!(number(&wall["sharpness"]) > 0.5 && shade["sharpness"].is_null(), "{told}");
+    assert!(number(&wall["sharpness"]) > 0.5 && shade["sharpness"].is_null(), "{json}");
     // The set has the smaller spacing of the two.
-    assert_eq!((number(&told["spacing"]), number(&shade["scale"][0])), (8.0, 1.0));
+    assert_eq!((number(&json["spacing"]), number(&shade["scale"][0])), (8.0, 1.0));
     assert!((number(&wall["scale"][0]) - 0.8).abs() < 0.04, "{wall}");
     assert_eq!(shade["bounds"], json!([106, 6, 88, 108]));
     assert_eq!((&shade["pixels"], &shade["regions_under"]), (&json!(88 * 108), &json!(0)));
@@ -54,10 +53,10 @@ fn marked_samples_are_upright_of_one_spacing_and_dark_to_light() {
     assert!(left < 3.0 && (90.0..=106.0).contains(&width) && height > 112.0, "{wall}");
 
     let shown = done(&["show", &output, "--json"]).json();
-    assert_eq!((&shown["provenance"], &shown["spacing"]), (&told["provenance"], &told["spacing"]));
-    for (shown, told) in [(&shown["samples"][0], shade), (&shown["samples"][1], wall)] {
+    assert_eq!((&shown["provenance"], &shown["spacing"]), (&json["provenance"], &json["spacing"]));
+    for (shown, printed) in [(&shown["samples"][0], shade), (&shown["samples"][1], wall)] {
         for key in ["name", "size", "texels", "colour", "mm_per_texel", "height_mm"] {
-            assert_eq!(shown[key], told[key], "{key}");
+            assert_eq!(shown[key], printed[key], "{key}");
         }
     }
     let marked = image::open(&marked).unwrap().into_rgb8();
@@ -78,11 +77,11 @@ fn relief_is_guessed_only_if_asked_for_and_that_is_told() {
     let plain = done(&[&arguments[..], &["--json"]].concat()).json();
     assert_eq!(plain["samples"][0]["height_mm"], Value::Null, "{plain}");
     done(&[&arguments[..], &["--guess-relief", "0.2"]].concat());
-    let told = done(&["show", &output, "--json"]).json();
-    for sample in told["samples"].as_array().unwrap() {
-        assert_eq!(sample["guessed_relief"], json!(true), "{told}");
+    let json = done(&["show", &output, "--json"]).json();
+    for sample in json["samples"].as_array().unwrap() {
+        assert_eq!(sample["guessed_relief"], json!(true), "{json}");
         let greatest = number(&sample["height_mm"]["greatest"]);
-        assert!((0.15..=0.2001).contains(&greatest), "{told}");
+        assert!((0.15..=0.2001).contains(&greatest), "{json}");
     }
     let table = done(&["show", &output]).out;
     assert!(table.contains("mm (guessed)"), "{table}");
@@ -132,10 +131,10 @@ fn lines_of_a_picture_are_marks_too() {
     let marks = folder.file("lines.png");
     lines.save(&marks).unwrap();
     let output = folder.file("s.exr");
-    let told = done(&["sample", &picture, "--marks", &marks, "--output", &output, "--json"]).json();
-    let names = [0, 1].map(|index| told["samples"][index]["name"].clone());
+    let json = done(&["sample", &picture, "--marks", &marks, "--output", &output, "--json"]).json();
+    let names = [0, 1].map(|index| json["samples"][index]["name"].clone());
     assert_eq!(names, [json!("#0000ff"), json!("#ff0000")]);
-    assert!(number(&told["samples"][0]["regions_under"]) >= 1.0, "{told}");
+    assert!(number(&json["samples"][0]["regions_under"]) >= 1.0, "{json}");
 }
 
 #[test]
@@ -234,10 +233,10 @@ fn samples_of_a_painting_carry_its_pigments_and_relief() {
     let painting = folder.painting(false);
     let output = folder.file("s.exr");
     let run = ["sample", &painting, "--spacing", "8", "--output", &output, "--json"];
-    let told = done(&run).json();
-    assert_eq!(told["pigments"], json!(["Zinc White", "Lead White"]));
-    assert_eq!(told["provenance"], "painting `rows`");
-    let whole = &told["samples"][0];
+    let json = done(&run).json();
+    assert_eq!(json["pigments"], json!(["Zinc White", "Lead White"]));
+    assert_eq!(json["provenance"], "painting `rows`");
+    let whole = &json["samples"][0];
     assert_eq!((&whole["name"], &whole["spacing_source"]), (&json!("p"), &json!("set")));
     assert_eq!((&whole["mm_per_texel"], &whole["guessed_relief"]), (&json!(0.5), &json!(false)));
     let degrees = whole["direction"]["degrees"].as_f64().unwrap();
@@ -252,8 +251,8 @@ fn samples_of_a_painting_carry_its_pigments_and_relief() {
     );
     let sheet = folder.file("s.png");
     let run = ["sample", &painting, "--marks", &marks, "--output", &output, "--sheet", &sheet];
-    let told = done(&[&run[..], &["--json"]].concat()).json();
-    let half = &told["samples"][0];
+    let json = done(&[&run[..], &["--json"]].concat()).json();
+    let half = &json["samples"][0];
     assert_eq!(half["bounds"], json!([0, 0, 40, 60]));
     let [mean, most] = ["mean", "greatest"].map(|of| half["height_mm"][of].as_f64().unwrap());
     assert!(0.01 < mean && mean < most, "{mean} {most}");
@@ -274,8 +273,8 @@ fn more_than_eight_pigments_are_refused_unless_minor_ones_are_merged() {
     assert!(!folder.names().contains(&"s.exr".to_owned()), "nothing was written");
     let merged = done(&[&run[..], &["--merge-minor", "--json"]].concat());
     assert!(merged.err.contains(" is below 1 % of the pigment and counts as "), "{}", merged.err);
-    let told = merged.json();
-    assert!(told["pigments"].as_array().unwrap().len() <= 8, "{told}");
+    let json = merged.json();
+    assert!(json["pigments"].as_array().unwrap().len() <= 8, "{json}");
 }
 
 #[test]
@@ -316,16 +315,16 @@ fn proposed_marks_can_be_sampled() {
     let text = String::from_utf8(folder.bytes("m.toml")).unwrap();
     assert!(text.starts_with("# Marks of samples"), "{text}");
     assert!(text.contains("painting = \"strokes.png\""), "{text}");
-    let told = done(&["sample", &picture, "--marks", &marks, "--output", &output, "--json"]).json();
-    let samples = told["samples"].as_array().unwrap();
-    assert_eq!(samples.len(), 2, "{told}");
+    let json = done(&["sample", &picture, "--marks", &marks, "--output", &output, "--json"]).json();
+    let samples = json["samples"].as_array().unwrap();
+    assert_eq!(samples.len(), 2, "{json}");
     // One scribble lies on each side.
     let left = [0, 1].map(|index: usize| samples[index]["bounds"][0].as_f64().unwrap());
-    assert!(left[0] > 80.0 && left[1] < 10.0, "{told}");
+    assert!(left[0] > 80.0 && left[1] < 10.0, "{json}");
     assert!(image::open(&marked).unwrap().width() == 200, "the picture with its marks");
-    let told = done(&["sample", &picture, "--propose", "2", "--output", &marks, "--json"]).json();
-    assert_eq!(told["samples"].as_array().unwrap().len(), 2, "{told}");
-    assert_eq!(told["without_spacing"], serde_json::json!([]));
+    let json = done(&["sample", &picture, "--propose", "2", "--output", &marks, "--json"]).json();
+    assert_eq!(json["samples"].as_array().unwrap().len(), 2, "{json}");
+    assert_eq!(json["without_spacing"], serde_json::json!([]));
 }
 
 #[test]

@@ -67,15 +67,15 @@ fn the_mask_is_white_where_the_picture_is_not_the_grey_one() {
     let folder = folder();
     let [model, picture, mask] = ["box.obj", "p.png", "m.png"].map(|name| path(&folder, name));
     let scene = [&[&model[..]], &SMALL[..], &POUR].concat();
-    let told =
+    let json =
         done(&[&scene[..], &["--picture", &picture, "--mask", &mask, "--json"]].concat()).json();
-    assert_eq!(told["size"], serde_json::json!([64, 48]), "{told}");
-    assert!(told["volumes"].as_u64() >= Some(1) && told["cells"].as_u64() > Some(20), "{told}");
-    let particles = told["particles"].as_u64().unwrap();
-    assert_eq!(particles % 162, 0, "volumes of a grid have 162 particles: {told}");
-    let on_scene = told["paint_mm3"]["on_scene"].as_f64().unwrap();
-    assert!((on_scene - 150.0).abs() < 1e-3, "{told}");
-    assert_eq!((&told["seconds"], &told["frames"]), (&0.5.into(), &serde_json::Value::Null));
+    assert_eq!(json["size"], serde_json::json!([64, 48]), "{json}");
+    assert!(json["volumes"].as_u64() >= Some(1) && json["cells"].as_u64() > Some(20), "{json}");
+    let particles = json["particles"].as_u64().unwrap();
+    assert_eq!(particles % 162, 0, "volumes of a grid have 162 particles: {json}");
+    let on_scene = json["paint_mm3"]["on_scene"].as_f64().unwrap();
+    assert!((on_scene - 150.0).abs() < 1e-3, "{json}");
+    assert_eq!((&json["seconds"], &json["frames"]), (&0.5.into(), &serde_json::Value::Null));
     let [grey, color, hatching, again, volumes] = ["grey", "colour", "hatching", "mask", "volumes"]
         .map(|what| {
             let file = path(&folder, &format!("{what}.png"));
@@ -164,12 +164,12 @@ fn an_animation_that_was_interrupted_ends_in_the_same_bytes() {
     let scene = [&[&model[..]], &SMALL[..], &POUR].concat();
     let moving = ["--animation", &film, "--rate", "8", "--json"];
     let frames = Path::new(&film).with_extension("frames");
-    let told = |found: u64| {
-        let told = done(&[&scene[..], &moving].concat()).json();
-        assert_eq!((&told["frames"], &told["frames_found"]), (&5.into(), &found.into()), "{told}");
+    let film_with_frames_found = |found: u64| {
+        let json = done(&[&scene[..], &moving].concat()).json();
+        assert_eq!((&json["frames"], &json["frames_found"]), (&5.into(), &found.into()), "{json}");
         fs::read(&film).unwrap()
     };
-    let whole = told(0);
+    let whole = film_with_frames_found(0);
     assert!(whole.starts_with(b"GIF89a"));
     let names = files(&frames, ".png");
     assert_eq!(names.len(), 5, "{names:?}");
@@ -177,7 +177,7 @@ fn an_animation_that_was_interrupted_ends_in_the_same_bytes() {
         fs::remove_file(frames.join(&names[index])).unwrap();
     }
     fs::remove_file(&film).unwrap();
-    assert!(whole == told(2), "the same bytes");
+    assert!(whole == film_with_frames_found(2), "the same bytes");
     // A frame is the still of its time, and the first shows no colour yet.
     done(&[&scene[..], &["--at", "0.25", "--picture", &still]].concat());
     let [first, middle, last] = [0, 2, 4].map(|index: usize| pixels(frames.join(&names[index])));
@@ -190,7 +190,7 @@ fn volumes_of_each_frame_are_those_of_the_library_at_that_moment() {
     let folder = folder();
     let [model, meshes, script] = ["box.obj", "v", "s.toml"].map(|name| path(&folder, name));
     let scene = [&[&model[..]], &SMALL[..], &POUR, &["--json", "--script-out", &script]].concat();
-    let told = done(&[&scene[..], &["--volumes", &meshes, "--rate", "4"]].concat()).json();
+    let json = done(&[&scene[..], &["--volumes", &meshes, "--rate", "4"]].concat()).json();
     let names = files(&meshes, ".ply");
     assert_eq!(names, ["frame-0001.ply", "frame-0002.ply", "frame-0003.ply"]);
     let script = Script::open(Path::new(&script)).unwrap();
@@ -217,7 +217,7 @@ fn volumes_of_each_frame_are_those_of_the_library_at_that_moment() {
         }
         assert_eq!(corners.next(), None);
     }
-    assert_eq!(told["volumes"].as_u64(), Some(play.world().volumes().len() as u64));
+    assert_eq!(json["volumes"].as_u64(), Some(play.world().volumes().len() as u64));
 }
 
 #[test]
@@ -226,8 +226,8 @@ fn a_turntable_turns() {
     let [model, frames] = ["box.obj", "f"].map(|name| path(&folder, name));
     let scene = [&[&model[..]], &SMALL[..], &POUR, &["--json"]].concat();
     let turning = ["--frames", &frames, "--turntable", "3", "--height", "40"];
-    let told = done(&[&scene[..], &turning].concat()).json();
-    assert_eq!((&told["frames"], &told["size"]), (&3.into(), &serde_json::json!([64, 40])));
+    let json = done(&[&scene[..], &turning].concat()).json();
+    assert_eq!((&json["frames"], &json["size"]), (&3.into(), &serde_json::json!([64, 40])));
     let names = files(&frames, ".png");
     let shown: Vec<RgbImage> =
         names.iter().map(|name| pixels(Path::new(&frames).join(name))).collect();
@@ -313,8 +313,8 @@ fn a_graphics_device_draws_the_same_picture() {
     let scene = [&model, "--width", "240", "--seconds", "0.5", "--set", "grid.cell=0.2", "--json"];
     let scene = [&scene[..], &POUR].concat();
     for (backend, file) in [("cpu", &cpu), ("gpu", &gpu)] {
-        let told = done(&[&scene[..], &["--backend", backend, "--picture", file]].concat()).json();
-        assert_eq!(told["backend"] == "cpu", backend == "cpu", "{told}");
+        let json = done(&[&scene[..], &["--backend", backend, "--picture", file]].concat()).json();
+        assert_eq!(json["backend"] == "cpu", backend == "cpu", "{json}");
     }
     let cpu = pixels(&cpu);
     let gpu = pixels(&gpu);
@@ -582,7 +582,7 @@ fn the_passes_hold_the_heights_of_each_pigment() {
     // A photograph is 200 mm wide and fills the picture, so a pixel is 1 mm^2.
     let scene = [&photo, "--width", "200", "--set", "picture.samples=1", "--pigments", &library];
     let paint = ["--pour", "0.4,0.5,18", "--paint", "Ultramarine=3,Lead White=1"];
-    let told = done(&[&scene[..], &paint, &["--passes", &passes, "--json"]].concat()).json();
+    let json = done(&[&scene[..], &paint, &["--passes", &passes, "--json"]].concat()).json();
     let image = read().no_deep_data().largest_resolution_level().all_channels();
     let image = image.all_layers().all_attributes().from_file(&passes).unwrap();
     let part = |wanted: &str| {
@@ -604,8 +604,8 @@ fn the_passes_hold_the_heights_of_each_pigment() {
     assert_eq!(part("heights").channel_data.list.len(), 2);
     let [blue, white] = ["Ultramarine", "Lead White"].map(|name| values("heights", name));
     let laid: f64 = blue.iter().chain(&white).sum();
-    let on_scene = told["paint_mm3"]["on_scene"].as_f64().unwrap();
-    assert!((on_scene - 18.0).abs() < 1e-3, "{told}");
+    let on_scene = json["paint_mm3"]["on_scene"].as_f64().unwrap();
+    assert!((on_scene - 18.0).abs() < 1e-3, "{json}");
     assert!((laid / on_scene - 1.0).abs() < 0.02, "{laid} of {on_scene} mm3");
     let counts = values("count.1", "N");
     for ((blue, white), count) in blue.iter().zip(&white).zip(&counts) {

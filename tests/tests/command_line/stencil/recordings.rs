@@ -109,7 +109,7 @@ impl Session {
         assert!(events > 0, "{} has done something", grip.tool.name());
     }
 
-    /// Stops time and goes to the end of the recording, where the verb ends. Returns its step.
+    /// Stops time and goes to the end of the recording, which `impasto stencil` paints. Returns its step.
     fn seek_end(&mut self) -> u64 {
         self.ask(VolumeCommand::Play(false));
         self.wait(|session| !session.state().time.playing);
@@ -367,16 +367,16 @@ fn a_run_that_was_cut_goes_on_from_its_snapshot_to_the_same_bytes() {
     let [model, whole, cut] = ["box.obj", "whole", "cut"].map(|name| path(&temporary, name));
     let [near, far, none] = ["near", "far", "none"].map(|name| path(&temporary, name));
     let scene = [&[&model[..]], &LONG[..], &POUR, &["--json", "--frames"]].concat();
-    let told = |folder: &str| {
+    let rerun = |folder: &str| {
         let run = done(&[&scene[..], &[folder]].concat());
-        let told = run.json();
-        (["frames_found", "from_seconds", "steps_computed"].map(|key| told[key].clone()), run.err)
+        let json = run.json();
+        (["frames_found", "from_seconds", "steps_computed"].map(|key| json[key].clone()), run.err)
     };
     fn numbers(found: u64, from: Option<f64>, steps: u64) -> [Value; 3] {
         [found.into(), from.map_or(Value::Null, Value::from), steps.into()]
     }
     // Everything is played twice: before the first frame is painted, and for the frames.
-    assert_eq!(told(&whole).0, numbers(0, None, 2 * 312));
+    assert_eq!(rerun(&whole).0, numbers(0, None, 2 * 312));
     blocked(&whole, &cut, 121);
     let run = stencil(&[&scene[..], &[&cut]].concat());
     assert!(run.status == 2 && run.err.contains("frame-0121.png"), "{}", run.err);
@@ -385,7 +385,7 @@ fn a_run_that_was_cut_goes_on_from_its_snapshot_to_the_same_bytes() {
     assert_eq!(files(&cut, ".world"), ["frame-0051.world", "frame-0101.world"]);
     [&near, &far, &none].iter().for_each(|folder| copied(&cut, folder));
 
-    let (found, err) = told(&near);
+    let (found, err) = rerun(&near);
     assert_eq!(found, numbers(120, Some(200.0 / 120.0), 2 * 112), "nothing before frame 101");
     assert!(!err.contains("snapshot"), "{err}");
     same_frames(&whole, &near);
@@ -395,7 +395,7 @@ fn a_run_that_was_cut_goes_on_from_its_snapshot_to_the_same_bytes() {
     let middle = bytes.len() / 2;
     bytes[middle] ^= 1;
     fs::write(&newest, bytes).unwrap();
-    let (found, err) = told(&far);
+    let (found, err) = rerun(&far);
     assert_eq!(found, numbers(120, Some(100.0 / 120.0), 2 * 212));
     let words = ["frame-0101.world: cut short or damaged", "from the snapshot after 0.83 s"];
     assert!(words.iter().all(|words| err.contains(words)), "{err}");
@@ -411,7 +411,7 @@ fn a_run_that_was_cut_goes_on_from_its_snapshot_to_the_same_bytes() {
     assert!(words.iter().all(|words| run.err.contains(words)), "{}", run.err);
     assert_eq!(files(&none, ".world"), ["frame-0101.world", "frame-0151.world"]);
     fs::remove_dir(obstacle(&none, 155)).unwrap();
-    assert_eq!(told(&none).0, numbers(154, Some(300.0 / 120.0), 2 * 12));
+    assert_eq!(rerun(&none).0, numbers(154, Some(300.0 / 120.0), 2 * 12));
     same_frames(&whole, &none);
 
     // Snapshots of another animation are reported, and removed with its frames.
@@ -451,9 +451,9 @@ fn a_script_that_cannot_be_played_leaves_nothing_behind() {
     let inside = path(&folder, "box.obj/inside");
     for option in ["--stages", "--volumes", "--pigment-maps", "--frames"] {
         let run = stencil(&[&[&script[..]], &paint[..], &[option, &inside]].concat());
-        let told = run.err.contains("inside: this folder cannot be created");
+        let is_reported = run.err.contains("inside: this folder cannot be created");
         assert!(
-            run.status == 2 && told && run.err.contains("hint: name another"),
+            run.status == 2 && is_reported && run.err.contains("hint: name another"),
             "{option}: {}",
             run.err
         );

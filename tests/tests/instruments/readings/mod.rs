@@ -207,13 +207,13 @@ fn files_in_memory_give_the_readings_of_files_on_the_disk() {
         let path = path.to_str().unwrap();
         let options = ReadingOptions::default();
         let files = [(path, bytes)];
-        fn told(readings: Result<Readings, ReadingsError>) -> Result<Readings, String> {
+        fn with_message(readings: Result<Readings, ReadingsError>) -> Result<Readings, String> {
             readings.map_err(|e| e.to_string())
         }
-        let whole = told(Readings::open_all(&[path], &options));
-        assert_eq!(told(Readings::from_files(&files, &options)), whole, "{name}");
-        let spectra = told(Readings::open_spectra(&[path], &options));
-        assert_eq!(told(Readings::spectra_from_files(&files, &options)), spectra, "{name}");
+        let whole = with_message(Readings::open_all(&[path], &options));
+        assert_eq!(with_message(Readings::from_files(&files, &options)), whole, "{name}");
+        let spectra = with_message(Readings::open_spectra(&[path], &options));
+        assert_eq!(with_message(Readings::spectra_from_files(&files, &options)), spectra, "{name}");
     }
 }
 
@@ -409,9 +409,9 @@ fn transmittance_is_reflectance_where_that_is_told() {
         "{}",
         run.err
     );
-    let told = impasto(&["color", file.to_str().unwrap(), "--as-reflectance"]);
+    let run = impasto(&["color", file.to_str().unwrap(), "--as-reflectance"]);
     let same = impasto(&["color", &fixture("madder.ttt")]);
-    assert_eq!((told.status, told.out), (0, same.out), "{}", told.err);
+    assert_eq!((run.status, run.out), (0, same.out), "{}", run.err);
 }
 
 #[test]
@@ -443,8 +443,8 @@ const FILE: &str = "some/file.txt";
 
 /// Reads the bytes in every format and with the detected format. Checks the spectra or the error.
 fn read_every_way(bytes: &[u8]) {
-    let told = Format::ALL.into_iter().map(Some).chain([None]);
-    for format in told {
+    let formats = Format::ALL.into_iter().map(Some).chain([None]);
+    for format in formats {
         match read(FILE, bytes, format) {
             Ok(file) => {
                 assert!(!file.spectra.is_empty(), "{format:?} without a spectrum");

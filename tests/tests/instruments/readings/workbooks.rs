@@ -203,8 +203,8 @@ fn binary_files_are_named_and_none_of_their_bytes_is_printed() {
             assert!(run.status != 0 && run.out.is_empty(), "{arguments:?}: {}{}", run.out, run.err);
             assert!(run.err.contains(name) && run.err.is_ascii(), "{arguments:?}: {}", run.err);
             assert!(run.err.contains("hint: "), "{arguments:?}: {}", run.err);
-            let told = run.err.contains(words) || run.err.contains("binary file");
-            assert!(told, "{arguments:?}: `{words}` is missing: {}", run.err);
+            let is_reported = run.err.contains(words) || run.err.contains("binary file");
+            assert!(is_reported, "{arguments:?}: `{words}` is missing: {}", run.err);
             assert!(
                 run.err.chars().all(|c: char| !c.is_control() || c == '\n'),
                 "{arguments:?}: {:?}",

@@ -37,9 +37,9 @@ const HEAD: CxfHead<'_> = CxfHead {
 #[test]
 fn conditions_and_kinds_are_told_apart() {
     let found = records("conditions.cxf", &fixture("conditions.cxf")).unwrap();
-    let told: Vec<_> = found.iter().map(|r| (r.name.as_str(), r.quantity, r.line)).collect();
+    let spectra: Vec<_> = found.iter().map(|r| (r.name.as_str(), r.quantity, r.line)).collect();
     assert_eq!(
-        told,
+        spectra,
         [
             ("Blue & white (M0)", MeasuredQuantity::Reflectance, 8),
             ("Blue & white (M1)", MeasuredQuantity::Reflectance, 8),

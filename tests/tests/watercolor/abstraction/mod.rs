@@ -44,7 +44,7 @@ struct Found {
 
 /// A picture of the golden file, with OpenCV's results by range radius.
 #[derive(Deserialize)]
-struct Told {
+struct MadePicture {
     name: String,
     seed: u64,
     noise: f64,
@@ -77,7 +77,7 @@ impl Shape {
     }
 }
 
-impl Told {
+impl MadePicture {
     /// The picture in encoded sRGB with coverage, and the index of the topmost shape by pixel.
     fn made(&self) -> (Field<[f32; 4]>, Field<u32>) {
         let mut random = Noise(self.seed);
@@ -193,15 +193,15 @@ fn processor_and_device_abstract_the_same() {
 
 #[test]
 fn what_cannot_be_is_told() {
-    let told = |width, settings| {
+    let refusal = |width, settings| {
         abstract_photograph(&mut Compute::cpu(), &photograph(), width, &settings).unwrap_err()
     };
-    assert!(matches!(told(0, settings(1)), AbstractionError::NoWidth));
-    let large = told(90, settings(500));
+    assert!(matches!(refusal(0, settings(1)), AbstractionError::NoWidth));
+    let large = refusal(90, settings(500));
     assert!(matches!(large, AbstractionError::Smoothing { found: 500 }), "{large}");
     let mut flat = settings(1);
     flat.segmentation.range_radius = -1.0;
-    let error = told(90, flat);
+    let error = refusal(90, flat);
     assert_eq!(error.to_string(), "a range radius is a number above 0, found `-1`");
     assert!(error.hint().unwrap().to_string().contains("flatter"));
 }
@@ -220,7 +220,7 @@ struct Shared {
 
 #[derive(Deserialize)]
 struct Cases {
-    pictures: Vec<Told>,
+    pictures: Vec<MadePicture>,
 }
 
 /// Pixels with another label than the pixel to the right or below.
@@ -269,8 +269,8 @@ fn boundaries_are_found_no_worse_than_by_opencv() {
     let settings =
         SegmentationSettings { spatial_radius_px, range_radius, least_region_px, tone_step: 0.0 };
     let mut own = Vec::new();
-    for told in &golden.cases.pictures {
-        let (picture, truth) = told.made();
+    for case in &golden.cases.pictures {
+        let (picture, truth) = case.made();
         let segmentation = segment(&picture, &settings).unwrap();
         let edge = edges(&segmentation.labels);
         let wanted = edges(&truth);
@@ -279,14 +279,14 @@ fn boundaries_are_found_no_worse_than_by_opencv() {
             recall: near(&wanted, &edge),
             precision: near(&edge, &wanted),
         };
-        for other in &told.opencv {
-            assert!(found.recall >= other.recall - 0.005, "{}: {found:?} {other:?}", told.name);
+        for other in &case.opencv {
+            assert!(found.recall >= other.recall - 0.005, "{}: {found:?} {other:?}", case.name);
         }
         own.push(found);
     }
     let pictures = &golden.cases.pictures;
     let others = (0..pictures[0].opencv.len())
-        .map(|range| whole(pictures.iter().map(|told| &told.opencv[range])));
+        .map(|range| whole(pictures.iter().map(|case| &case.opencv[range])));
     let other = others.max_by(|a, b| a.recall.total_cmp(&b.recall)).unwrap();
     let own = whole(own.iter());
     assert!(own.recall >= other.recall, "{own:?}, OpenCV {other:?}");

@@ -332,7 +332,7 @@ fn what_a_file_leaves_out_is_usual() {
 
 #[test]
 fn broken_files_are_told_by_line_and_key() {
-    for (text, told) in [
+    for (text, reason) in [
         ("[edges]\n\nstrenght = 4.0", "a.toml, line 3: edges.strenght: unknown key `strenght`"),
         ("\n[edge]\nstrength = 4.0", "a.toml, line 2: edge: unknown key `edge`"),
         (
@@ -369,12 +369,12 @@ fn broken_files_are_told_by_line_and_key() {
         ("\u{feff}[flow]\nseed = 9", ""),
     ] {
         let read = Settings::from_toml("a.toml", text);
-        if told.is_empty() {
+        if reason.is_empty() {
             assert_eq!(read.unwrap().flow.seed, 9, "{text}");
             continue;
         }
         let error = read.unwrap_err();
-        assert!(error.to_string().starts_with(told), "{text}: {error}");
+        assert!(error.to_string().starts_with(reason), "{text}: {error}");
         assert!(error.hint().is_some(), "{text}");
     }
     let missing = Settings::open(std::path::Path::new("no/such.toml")).unwrap_err();

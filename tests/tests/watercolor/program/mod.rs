@@ -328,17 +328,17 @@ fn a_photograph_becomes_a_picture_of_its_colors() {
     let photo = folder.photograph();
     let out = folder.file("out.png");
     let run = painted(&photo, &["--picture", &out, "--json"]);
-    let told = run.json();
-    let mut keys: Vec<_> = told.as_object().unwrap().keys().map(String::as_str).collect();
+    let json = run.json();
+    let mut keys: Vec<_> = json.as_object().unwrap().keys().map(String::as_str).collect();
     keys.sort_unstable();
     assert_eq!(keys, KEYS);
-    assert_eq!(told["size"], serde_json::json!([160, 120]));
+    assert_eq!(json["size"], serde_json::json!([160, 120]));
     assert_eq!(
-        (told["backend"].as_str(), &told["frames"]),
+        (json["backend"].as_str(), &json["frames"]),
         (Some("cpu"), &serde_json::Value::Null)
     );
-    assert!((3..60).contains(&told["regions"].as_u64().unwrap()), "{told}");
-    assert_eq!(told["pigments"], serde_json::json!([]));
+    assert!((3..60).contains(&json["regions"].as_u64().unwrap()), "{json}");
+    assert_eq!(json["pigments"], serde_json::json!([]));
     let made = opened(&out);
     let original = opened(&photo);
     assert_eq!(made.dimensions(), (160, 120));
@@ -495,8 +495,8 @@ fn a_gif_and_an_apng_hold_every_frame() {
     let folder = Folder::new();
     let gif = folder.file("turn.gif");
     let apng = folder.file("turn.png");
-    let told = turned(&folder, &["--animation", &gif, "--rate", "10"]).json();
-    assert_eq!((told["frames"].as_u64(), told["frames_found"].as_u64()), (Some(4), Some(0)));
+    let json = turned(&folder, &["--animation", &gif, "--rate", "10"]).json();
+    assert_eq!((json["frames"].as_u64(), json["frames_found"].as_u64()), (Some(4), Some(0)));
     let names =
         ["animation.json", "frame-0001.png", "frame-0002.png", "frame-0003.png", "frame-0004.png"];
     assert_eq!(folder.names("turn.frames"), names);
@@ -506,8 +506,8 @@ fn a_gif_and_an_apng_hold_every_frame() {
     }
 
     // Both animations use one folder of frames, so another format and rate need no new frame.
-    let told = turned(&folder, &["--animation", &apng]).json();
-    assert_eq!(told["frames_found"], 4);
+    let json = turned(&folder, &["--animation", &apng]).json();
+    assert_eq!(json["frames_found"], 4);
     let decoder = GifDecoder::new(BufReader::new(File::open(&gif).unwrap())).unwrap();
     let frames = decoder.into_frames().collect_frames().unwrap();
     assert!(frames.iter().all(|f| Duration::from(f.delay()) == Duration::from_millis(100)));

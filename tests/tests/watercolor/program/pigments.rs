@@ -34,9 +34,9 @@ fn a_painting_of_glazes_is_kept_and_relit() {
         ["--pigment-maps", &maps],
     ];
     let run = painted(&photo, &[&options.concat()[..], &["--json"]].concat());
-    let told = run.json();
-    assert_eq!(told["pigments"].as_array().unwrap().len(), 3, "{told}");
-    assert_eq!(told["pigments"][0], "Vermilion");
+    let json = run.json();
+    assert_eq!(json["pigments"].as_array().unwrap().len(), 3, "{json}");
+    assert_eq!(json["pigments"][0], "Vermilion");
     let made = opened(&out);
     let [r, _, b] = mean(&made, 4, 40);
     let [far_r, _, far_b] = mean(&made, 120, 156);
@@ -79,8 +79,8 @@ fn pigments_are_chosen_and_paper_and_light_are_given() {
     let with = |options: &[&str]| {
         let all =
             [&["--pigments", &library, "--width", "48", "--picture", &out, "--json"], options];
-        let told = painted(&photo, &all.concat()).json();
-        (opened(&out), told["pigments"].as_array().unwrap().len())
+        let json = painted(&photo, &all.concat()).json();
+        (opened(&out), json["pigments"].as_array().unwrap().len())
     };
     let (chosen, count) = with(&[]);
     assert!((3..=8).contains(&count), "{count}");
@@ -122,8 +122,8 @@ fn a_mesh_turns_in_the_pigments_of_its_first_frame() {
 
     let still = folder.file("still.exr");
     painted(&mesh, &[&options[..4], &["--output", &still, "--palette", PALETTE]].concat());
-    let told = relit(&still, &["--json"]).json();
-    assert_eq!(told["canvas"], serde_json::json!([32, 24]));
+    let json = relit(&still, &["--json"]).json();
+    assert_eq!(json["canvas"], serde_json::json!([32, 24]));
 }
 
 #[test]

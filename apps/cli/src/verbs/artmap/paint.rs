@@ -33,7 +33,7 @@ pub(super) struct Paint {
     show_style: Option<String>,
     /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else the Van Gogh oils that ship]
     library: Option<PathBuf>,
-    /// The library, as it was named before
+    /// Old name of LIBRARY
     #[arg(long, value_name = "LIBRARY", hide = true, conflicts_with = "library")]
     pigments: Option<PathBuf>,
     /// Hue of the tones, as `#c9a227` or `L,a,b`; its lightness does not matter

@@ -76,21 +76,22 @@ pub(super) struct Sample {
     /// Write the picture with the marks and the outlines of the passages drawn on it (.png, .exr)
     #[arg(long, value_name = "FILE")]
     marked: Option<PathBuf>,
-    /// Method that divides the picture into the small regions of which passages grow
+    /// Method that divides the picture into small regions, which grow into passages
     #[arg(long, value_enum, default_value = "jseg")]
     over: Over,
     /// How unlike regions may be to join a passage, 0 to 10
     #[arg(long, value_name = "X", default_value_t = 1.0)]
     reach: f64,
-    /// Distance of neighbouring strokes in pixels, 1 to 1000, where the marks give none [default:
-    /// estimated, and refused where it cannot be seen]
+    /// Distance of neighbouring strokes in pixels, 1 to 1000, for samples whose marks do not state
+    /// it [default: estimated, and refused if it cannot be seen]
     #[arg(long, value_name = "PX")]
     spacing: Option<f64>,
-    /// Direction in which samples are resized to one distance of strokes
+    /// Directions in which samples are resized until all have the same distance of strokes
     #[arg(long, value_enum, default_value = "uniform")]
     density: ResizedBy,
-    /// Guess the relief of a picture from its lightness, dark as deep: MM from furrow to ridge, above 0
-    /// to 10, 0.2 is usual for oil. Light from one side and lighter paint are taken for relief too
+    /// Guess the relief of a picture from its lightness, dark as deep: MM from furrow to ridge,
+    /// above 0 to 10, 0.2 is usual for oil. Light from one side and lighter paint look like relief
+    /// too
     #[arg(long, value_name = "MM", conflicts_with = "propose")]
     guess_relief: Option<f64>,
     /// If a painting has more than eight pigments, count those below 1 % as the one nearest in colour
@@ -260,7 +261,7 @@ fn print(set: &SampleSet, reports: &[PassageReport], console: &mut Console<'_>) 
     table.print(console)
 }
 
-/// Remark on strokes that were seen in the relief.
+/// Words that say that strokes were seen in the relief. Empty if they were seen in the colours.
 fn in_relief(seen: StrokesSeen) -> &'static str {
     if seen == StrokesSeen::Relief { " in relief" } else { "" }
 }

@@ -1,6 +1,6 @@
-//! A subject, and the files that we paint it into. This file also holds the options for the
-//! brushwork (maps that you give as files or by a style, and the regions they are for) and for
-//! paintings with pigments, and a folder of OpenEXR frames.
+//! One run of `impasto painterly`: the subject, the files to write, and the options for the
+//! brushwork (maps from files or from a style, and the regions that use them) and for paintings
+//! with pigments.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -198,7 +198,7 @@ pub(super) struct Maps {
     regions: Regions,
 }
 
-/// The map of everything else, and those of materials.
+/// The maps of `--map`: one for everything, and one for each material that has its own.
 struct Chosen<'a> {
     base: Option<&'a str>,
     of_material: Vec<(&'a str, &'a str)>,
@@ -242,8 +242,8 @@ impl BrushworkOptions {
         Ok(Maps { named, regions })
     }
 
-    /// The map that a region calls: a file beside the file of regions or as on the command line, or a
-    /// style.
+    /// Opens the map that a region names: a file beside the file of regions or as on the command
+    /// line, or a style.
     fn map_of_region(&self, name: &str, console: &Console<'_>) -> Result<ArtMap> {
         let folder = self.regions.as_deref().and_then(Path::parent);
         let beside = folder.map(|folder| folder.join(name)).filter(|path| path.exists());
@@ -309,7 +309,7 @@ pub(super) struct PigmentOptions {
     /// that of IMPASTO_LIBRARY, else the Van Gogh oils that ship]
     #[arg(value_name = "LIBRARY", group = "library_of_paint")]
     pigments: Option<PathBuf>,
-    /// The library, as it was named before
+    /// Old name of LIBRARY
     #[arg(long = "pigments", value_name = "LIBRARY", hide = true, group = "library_of_paint")]
     pigments_before: Option<PathBuf>,
     /// Up to eight pigments for those colours, separated by commas [default: those that come nearest]
@@ -338,7 +338,8 @@ impl PigmentOptions {
         self.path().cloned()
     }
 
-    /// Title, ground and pigments, if the picture is a painting: if `wanted` or asked for here.
+    /// Title, ground and pigments, if the picture becomes a painting. This is so if `wanted` is
+    /// true or if options ask for it.
     pub(super) fn materials(
         &self,
         title: &str,

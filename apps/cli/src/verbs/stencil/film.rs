@@ -1,6 +1,6 @@
-//! We make the frames of a script in their order, and single pictures of a world with their files.
-//! Beside the frames of an animation we keep moments of the script, from which you can continue an
-//! interrupted one.
+//! Makes the frames of a script in order, and single pictures of a world. While we make an
+//! animation, we keep snapshots of the script beside its frames, from which you can continue if you
+//! interrupt it.
 
 use std::path::{Path, PathBuf};
 
@@ -176,7 +176,7 @@ pub(super) const EVERY: usize = 50;
 /// Number of snapshots that are kept.
 const KEPT: usize = 2;
 
-/// Plays scripts, from the newest snapshot where there is one.
+/// Plays scripts. If there are snapshots of an earlier run, we continue from the newest one.
 pub(super) struct Snapshots {
     /// Device of large worlds.
     device: StepDevice,
@@ -237,7 +237,7 @@ impl Snapshots {
         Ok(Self { folder: folder.to_owned(), wish, found, files, ..Self::none(device) })
     }
 
-    /// Whether there is one.
+    /// Whether there is a snapshot.
     pub(super) fn any(&self) -> bool {
         !self.found.is_empty()
     }
@@ -252,7 +252,7 @@ impl Snapshots {
         }
     }
 
-    /// Plays on until `step`, by way of a snapshot where one is ahead.
+    /// Plays until `step`. If a snapshot on the way is ahead of us, we continue from it.
     pub(super) fn advance(
         &mut self,
         play: &mut Performance,

@@ -78,7 +78,7 @@ impl Job {
                 script.text(&scene, &title, &to, (library.as_deref(), light.as_deref()))?
             }
         };
-        let beginning = script.beginning(&scene, &settings)?;
+        let beginning = script.performance_at_start(&scene, &settings)?;
         let compute = verb.backend.compute(console)?;
         let animation = verb.animation.open(&inputs)?;
         let file = animation.as_ref().and_then(Animation::file);
@@ -187,9 +187,9 @@ impl Job {
         Ok(prepared::<VolumePainter>(subject, &self.settings, console)?)
     }
 
-    /// The script at the time of single pictures. It is played to the last step of all first, so
-    /// that an event that cannot be done is told before anything is written. A run that left
-    /// snapshots has done so already.
+    /// Plays the script to the time of the single pictures. To report an impossible event before
+    /// anything is written, this first plays the script to its very last step. If an earlier run
+    /// left snapshots, it has checked this already.
     fn rehearsed(&self, has_frames: bool, snapshots: &mut Snapshots) -> Result<Performance> {
         let located = |error| self.script.located_event(error);
         let mut play = self.beginning.clone();
@@ -231,7 +231,7 @@ fn check_layers(verb: &Stencil, has_pigments: bool) -> Result<()> {
     }
 }
 
-/// The script with all that options change of it.
+/// Reads the script and changes it as the options say.
 fn script(
     verb: &Stencil,
     path: &Path,

@@ -112,8 +112,8 @@ impl PourOptions {
         self.seconds.is_some()
     }
 
-    /// Adds what is poured to a script. `palette` are lists of pigments of the library, if one is
-    /// given.
+    /// Adds what the options pour to a script. If there is a library, `palette` lists pigments of
+    /// it.
     pub(super) fn apply(
         &self,
         script: &mut Script,
@@ -234,7 +234,7 @@ pub(super) struct PigmentOptions {
     /// library that a script names, if its volumes show glazes]
     #[arg(value_name = "LIBRARY", group = "library_of_paint")]
     pigments: Option<PathBuf>,
-    /// The library, as it was named before
+    /// Old name of LIBRARY
     #[arg(long = "pigments", value_name = "LIBRARY", hide = true, group = "library_of_paint")]
     pigments_before: Option<PathBuf>,
     /// Up to eight pigments of the volumes, separated by commas
@@ -298,9 +298,9 @@ impl PigmentOptions {
         self.input().map(|path| library(path)).transpose()
     }
 
-    /// Pigments, ground and light of a script's palette, if a `library` is given, or named by the
-    /// script, which lies in `folder`, and seen by `settings`. `located` adds file and line to a
-    /// fault of the script.
+    /// Pigments, ground and light of a script's palette. The library is the given one. Without it,
+    /// if the script shows films, we open the one that the script names, in `folder`. `located`
+    /// adds file and line to a fault of the script.
     pub(super) fn materials(
         &self,
         (script, settings): (&Script, &Settings),
@@ -477,7 +477,7 @@ impl MeshFolder {
         Ok(Self { folder, frames })
     }
 
-    /// Tells that the folder was written.
+    /// Reports that the folder was written.
     pub(super) fn told(&self, console: &mut Console<'_>) -> Result<()> {
         self.folder.told(console)
     }

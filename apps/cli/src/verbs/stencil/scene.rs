@@ -1,5 +1,5 @@
-//! The scene, its script, the cameras of this script, and the steps at which we make the pictures
-//! of a run.
+//! The scene that a script is played in: the mesh, the cameras, and the steps at which we make
+//! pictures.
 
 use std::path::{Path, PathBuf};
 
@@ -24,7 +24,7 @@ pub(super) struct OpenScript {
     pub(super) script: Script,
     /// Name of the file and its text.
     file: Option<(String, String)>,
-    /// Number of its own pours. You gave the later ones on the command line.
+    /// Number of pours in the script itself. The pours after these come from the command line.
     own_pours: usize,
     /// Whether the command line gives the duration.
     seconds_given: bool,
@@ -140,7 +140,11 @@ impl OpenScript {
     }
 
     /// The script before its first step.
-    pub(super) fn beginning(&self, scene: &Scene, settings: &Settings) -> Result<Performance> {
+    pub(super) fn performance_at_start(
+        &self,
+        scene: &Scene,
+        settings: &Settings,
+    ) -> Result<Performance> {
         let Scene { mesh, cameras, size, .. } = scene;
         let view = FirstView::new(mesh, &cameras[0], *size);
         Performance::new(&self.script, mesh, settings, &view).map_err(|error| {
@@ -175,8 +179,8 @@ impl OpenScript {
         Ok(script.to_text()?)
     }
 
-    /// Reads the scene. `frames` is the number of frames of a camera path of the script. A camera
-    /// of the options becomes that of the script.
+    /// Reads the scene. A camera path in the script gets `frames` frames. If options give a camera,
+    /// it replaces the camera of the script.
     pub(super) fn scene(
         &mut self,
         path: &Path,
@@ -277,8 +281,8 @@ pub(super) fn camera_table(options: &SubjectOptions, photograph: bool) -> Result
     Ok(CameraTable { frames, closed, keyframes, ..CameraTable::default() })
 }
 
-/// The cameras of a model in a picture of this size; `frames` is the number of those of a path
-/// without one of its own.
+/// The cameras of a model in a picture of this size. A path that does not state its number of
+/// frames gets `frames`.
 pub(super) fn model_cameras(
     table: &CameraTable,
     mesh: &Mesh,
@@ -343,8 +347,8 @@ pub(super) struct Times {
 }
 
 impl Times {
-    /// The step of a still at `at` seconds, the end without it, and those of `frames` frames at
-    /// `rate` frames a second, of which late ones show the end of a script of `seconds`.
+    /// The step of the still at `at` seconds (`None` is the end), and the steps of `frames` frames
+    /// at `rate` frames a second. Frames after the end of a script of `seconds` show the end.
     pub(super) fn of(seconds: f64, at: Option<f64>, rate: f64, frames: usize) -> Result<Self> {
         let at = at.unwrap_or(seconds);
         if !(0.0..=seconds).contains(&at) {

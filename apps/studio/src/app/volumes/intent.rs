@@ -425,7 +425,7 @@ mod tests {
             let found = SceneIntent::of_key(&table, key, modifiers);
             assert_eq!(found, Some(wanted), "{modifiers:?} {key:?}");
         }
-        let told = SCENE_ENTRIES.iter().filter(|entry| !entry.shortcuts.is_empty());
-        assert_eq!(told.count(), keys.len(), "each entry is here");
+        let with_keys = SCENE_ENTRIES.iter().filter(|entry| !entry.shortcuts.is_empty());
+        assert_eq!(with_keys.count(), keys.len(), "each entry is here");
     }
 }

@@ -62,9 +62,9 @@ pub struct Volumes {
     pub(super) picture: Option<(Arc<ScenePicture>, Picture)>,
     pub(super) rect: Rect,
     /// Camera and size of the picture that we last sent to the worker.
-    pub(super) told: (Option<Camera>, [usize; 2]),
+    pub(super) sent_view: (Option<Camera>, [usize; 2]),
     pub(super) device: Option<Device>,
-    /// Whether we have told the worker that the device is down.
+    /// Whether the worker knows that the pointing device is down.
     pub(super) pours: bool,
     /// The answer to a right click, and where you clicked.
     pub(super) here: Option<(Pos2, Option<Here>)>,
@@ -97,7 +97,7 @@ impl Volumes {
             state: None,
             picture: None,
             rect: Rect::NOTHING,
-            told: (None, [0; 2]),
+            sent_view: (None, [0; 2]),
             device: None,
             pours: false,
             here: None,
@@ -243,12 +243,12 @@ impl Volumes {
         self.orbit.set_aspect(size[0] / size[1]);
         let size = size.map(|side| side as usize);
         let camera = self.orbit.camera();
-        if self.told.1 != size {
-            self.told.1 = size;
+        if self.sent_view.1 != size {
+            self.sent_view.1 = size;
             self.ask(VolumeCommand::Size(size));
         }
-        if self.told.0 != Some(camera) {
-            self.told.0 = Some(camera);
+        if self.sent_view.0 != Some(camera) {
+            self.sent_view.0 = Some(camera);
             self.ask(VolumeCommand::Camera(camera));
         }
     }
@@ -385,7 +385,7 @@ impl Volumes {
                 let orbit = Orbit::around(state.bounds, state.framed);
                 let seen_from = state.seen_from.as_ref();
                 self.orbit = seen_from.map_or(orbit, |camera| orbit.seen_by(camera));
-                self.told.0 = None;
+                self.sent_view.0 = None;
                 (self.here, self.tools.here) = (None, None);
                 self.message = None;
                 files.scene_opened(&state);
@@ -474,7 +474,7 @@ impl Volumes {
 
     /// Asks the worker for the content of a file.
     fn export(&mut self, export: SceneExport, path: PathBuf) {
-        let size = self.told.1;
+        let size = self.sent_view.1;
         let number = self.await_file(export, path);
         self.ask(match export {
             SceneExport::Picture => VolumeCommand::Draw(number, size),
@@ -505,7 +505,7 @@ impl Volumes {
             Some((SceneExport::Script, path)) => files.save_scene(recording, path),
             Some((SceneExport::Animation, path)) => {
                 let recording = Arc::clone(recording);
-                let size = self.told.1;
+                let size = self.sent_view.1;
                 files.export_scene(path, move |path, task| {
                     session::volumes::animation(&recording, size, path, task)
                         .map_err(Problem::from)?;

@@ -250,7 +250,7 @@ impl Browser {
         height: f32,
         thumbnails: &mut Thumbnails,
     ) -> Option<Answer> {
-        let entries: Vec<Entry> = self.shown().into_iter().cloned().collect();
+        let entries: Vec<Entry> = self.shown_entries().into_iter().cloned().collect();
         let gap = ui.spacing().item_spacing;
         let grid = self.look.grid;
         self.columns = if grid {

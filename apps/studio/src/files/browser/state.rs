@@ -21,7 +21,7 @@ pub(crate) struct BrowserOptions {
     pub(crate) filters: &'static [Filter],
     /// Extension added to the name of a new file, if any.
     pub(crate) ending: Option<&'static str>,
-    /// Other extensions that a new file can have. It gets none of our own then.
+    /// If a new file has one of these extensions, we do not add our own.
     pub(crate) others: &'static [&'static str],
     /// Suggested name of a new file.
     pub(crate) name: String,
@@ -161,7 +161,7 @@ impl Browser {
 
     /// The entries that the filters accept, in the chosen order.
     #[must_use]
-    pub(crate) fn shown(&self) -> Vec<&Entry> {
+    pub(crate) fn shown_entries(&self) -> Vec<&Entry> {
         let filter = self.options.filters.get(self.filter).copied().unwrap_or(Filter::ALL);
         arranged(&self.entries, filter, &self.typed_filter, self.look.order)
     }
@@ -177,7 +177,7 @@ impl Browser {
 
     /// Moves the selection by `steps` entries.
     pub(crate) fn step(&mut self, steps: isize) {
-        let shown = self.shown();
+        let shown = self.shown_entries();
         let Some(last) = shown.len().checked_sub(1) else { return };
         let at = shown.iter().position(|entry| Some(&entry.name) == self.selected.as_ref());
         let next = match at {
@@ -206,7 +206,7 @@ impl Browser {
 
     /// Opens the selected folder, or chooses the selected file.
     pub(crate) fn enter(&mut self) -> Option<Answer> {
-        let shown = self.shown();
+        let shown = self.shown_entries();
         let selected = shown.into_iter().find(|entry| Some(&entry.name) == self.selected.as_ref());
         match selected {
             Some(entry) if entry.folder => {
@@ -428,7 +428,7 @@ mod tests {
     fn keys_move_through_the_filtered_entries() {
         let (mut browser, folder) = browser(false);
         assert_eq!(
-            browser.shown().iter().map(|entry| entry.name.clone()).collect::<Vec<_>>(),
+            browser.shown_entries().iter().map(|entry| entry.name.clone()).collect::<Vec<_>>(),
             ["sub", "a.exr", "b.exr"]
         );
         assert_eq!(browser.enter(), None, "nothing is selected");

@@ -61,8 +61,8 @@ impl fmt::Debug for Thumbnails {
 }
 
 impl Thumbnails {
-    /// The picture of `entry` in `folder`. If we do not know it, it is read next, unless another
-    /// one is being read, and repaints `context` when it is there.
+    /// The picture of `entry` in `folder`. If we have not read it yet, we read it now, or after the
+    /// one that we are reading. `context` repaints when the picture is there.
     pub(crate) fn of(&mut self, context: &Context, folder: &Path, entry: &Entry) -> Thumbnail<'_> {
         if entry.folder || !may_have_picture(&entry.name) || entry.bytes > MOST_FILE_BYTES {
             return Thumbnail::Plain;

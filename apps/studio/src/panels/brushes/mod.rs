@@ -291,8 +291,8 @@ impl Brushes {
         name
     }
 
-    /// The brush in hand with these options, as a preset. `with_paint` keeps the paint too. `None`
-    /// if there is no brush.
+    /// The brush in hand with these options, as a preset. If `with_paint` is true, it includes the
+    /// paint on the brush. `None` if there is no brush.
     pub fn kept(
         &mut self,
         options: BrushOptions,

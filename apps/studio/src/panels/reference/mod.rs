@@ -275,7 +275,7 @@ impl Reference {
             }
             let empty = self.samples.marks().is_empty().then_some(tr("There is no mark to save"));
             if button(ui, tr("Save marks\u{2026}"), tr("Saves the marks beside the picture"), empty) {
-                cx.file(FileRequest::SaveDrawing(self.samples.drawn(&path)));
+                cx.file(FileRequest::SaveDrawing(self.samples.as_file(&path)));
             }
             if button(ui, tr("Open marks\u{2026}"), tr("Opens a file of marks for this picture"), None) {
                 cx.file(FileRequest::OpenDrawing(DrawingKind::Marks, path.clone()));
@@ -363,7 +363,7 @@ impl Reference {
                 tr("Saves the guides beside the picture"),
                 empty,
             ) {
-                cx.file(FileRequest::SaveDrawing(self.combing.drawn(&path, size)));
+                cx.file(FileRequest::SaveDrawing(self.combing.as_file(&path, size)));
             }
             if button(
                 ui,

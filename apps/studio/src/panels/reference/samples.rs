@@ -129,7 +129,7 @@ impl SampleMarks {
     }
 
     /// The marks as a file for `picture`.
-    pub(super) fn drawn(&self, picture: &Path) -> DrawnFile {
+    pub(super) fn as_file(&self, picture: &Path) -> DrawnFile {
         let path = self.path.clone().unwrap_or_else(|| DrawingKind::Marks.beside(picture));
         DrawnFile { drawing: Drawing::Marks(self.of(picture, &path)), path }
     }
@@ -137,7 +137,7 @@ impl SampleMarks {
     /// The marks as a file, if they are not saved.
     pub(super) fn unsaved(&self, picture: &Path) -> Option<DrawnFile> {
         let lost = self.marks.is_unsaved() && !self.marks().is_empty();
-        lost.then(|| self.drawn(picture))
+        lost.then(|| self.as_file(picture))
     }
 
     fn of(&self, picture: &Path, path: &Path) -> Marks {
@@ -277,7 +277,7 @@ impl Combing {
     }
 
     /// The guides as a file for `picture` of this width and height.
-    pub(super) fn drawn(&self, picture: &Path, size: [usize; 2]) -> DrawnFile {
+    pub(super) fn as_file(&self, picture: &Path, size: [usize; 2]) -> DrawnFile {
         let path = self.path.clone().unwrap_or_else(|| DrawingKind::Guides.beside(picture));
         let Combed { lines, camera } = self.combed().clone();
         let guides = Guides {
@@ -293,7 +293,7 @@ impl Combing {
     /// The guides as a file, if they are not saved.
     pub(super) fn unsaved(&self, picture: &Path, size: [usize; 2]) -> Option<DrawnFile> {
         let lost = self.combed.is_unsaved() && !self.combed().lines.is_empty();
-        lost.then(|| self.drawn(picture, size))
+        lost.then(|| self.as_file(picture, size))
     }
 }
 

@@ -191,9 +191,9 @@ impl Reference {
     pub fn pinned(&self) -> Option<(&Path, Vec<DrawnFile>)> {
         let path = self.path.as_deref()?;
         let Some(picture) = &self.picture else { return Some((path, self.restoring.clone())) };
-        let marks = (!self.samples.marks().is_empty()).then(|| self.samples.drawn(path));
+        let marks = (!self.samples.marks().is_empty()).then(|| self.samples.as_file(path));
         let guides = !self.combing.combed().lines.is_empty();
-        let guides = guides.then(|| self.combing.drawn(path, picture.file_size()));
+        let guides = guides.then(|| self.combing.as_file(path, picture.file_size()));
         Some((path, marks.into_iter().chain(guides).collect()))
     }
 
@@ -276,7 +276,7 @@ impl PointerLine {
                         ..
                     } if !self.points.is_empty() => {
                         self.points.push(pos);
-                        ended = Some(drawn(std::mem::take(&mut self.points)));
+                        ended = Some(click_or_line(std::mem::take(&mut self.points)));
                     }
                     _ => {}
                 }
@@ -294,7 +294,7 @@ impl PointerLine {
     }
 }
 
-fn drawn(points: Vec<Pos2>) -> Drawn {
+fn click_or_line(points: Vec<Pos2>) -> Drawn {
     let first = points[0];
     if points.iter().all(|point| point.distance(first) <= CLICK_POINTS) {
         Drawn::Click(first)

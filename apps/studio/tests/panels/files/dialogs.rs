@@ -37,8 +37,8 @@ fn a_format_a_ground_and_its_color_are_begun_and_kept_as_a_preset() {
         window.step();
     }
     picture(&mut window, "new");
-    assert!(shows(&window, "1050 x 1480 cells"), "the cells are told");
-    assert!(shows(&window, "134 MiB, and 54 MiB"), "the memory is told");
+    assert!(shows(&window, "1050 x 1480 cells"), "you see the number of cells");
+    assert!(shows(&window, "134 MiB, and 54 MiB"), "you see the memory");
     click(&mut window, "Begin");
     until(&mut window, "the painting", |window| !window.state().commands.is_empty());
     let [Command::Open(Origin::Blank { script, .. })] = &window.state().commands[..] else {
@@ -66,7 +66,7 @@ fn a_canvas_with_too_many_cells_is_not_begun() {
     let mut window = window(folder.path(), painted("A"));
     ask(&mut window, FileRequest::New);
     choose(&mut window, "Format of the canvas", "30 F");
-    assert!(shows(&window, "Too many cells"), "it is told");
+    assert!(shows(&window, "Too many cells"), "you see why");
     click(&mut window, "Begin");
     assert!(window.state_mut().files().has_dialog(), "the dialog stays");
     assert!(window.state().commands.is_empty(), "nothing is begun");
@@ -302,7 +302,7 @@ fn a_crop_opens_the_part_that_stays_as_an_unsaved_painting() {
     assert_eq!(**canvas, whole.cropped(rect));
     assert_eq!(**palette, *whole, "the palette stays as it is");
     assert!(window.state_mut().files().has_unsaved_changes(), "the part is in no file");
-    assert!(shows(&window, "Cropped to 12.0 x 8.0 mm"), "the size is told");
+    assert!(shows(&window, "Cropped to 12.0 x 8.0 mm"), "you see the size");
 }
 
 #[test]

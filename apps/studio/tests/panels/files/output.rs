@@ -647,16 +647,16 @@ fn a_recovered_desk_has_its_view_tool_brush_and_lines() {
     studio.tools.mode = Mode::Rotate;
     studio.canvas.view.rotate(0.5);
     studio.canvas.view.fitted = false;
-    let desk = studio.desk();
-    assert_eq!(desk.reference.as_ref().unwrap().drawn().len(), 1);
+    let setup = studio.window_setup();
+    assert_eq!(setup.reference.as_ref().unwrap().drawn().len(), 1);
     drop(window);
 
     let mut other = StudioWindow::open("desk again");
-    assert!(other.studio().desk() != desk);
+    assert!(other.studio().window_setup() != setup);
     let context = other.harness().ctx.clone();
-    other.studio_mut().set_up(&desk, &context);
+    other.studio_mut().set_up(&setup, &context);
     wait_until(&mut other, "the lines", |window| {
         window.studio().panels.reference.unsaved_drawings().len() == 1
     });
-    assert_eq!(other.studio().desk(), desk);
+    assert_eq!(other.studio().window_setup(), setup);
 }

@@ -13,7 +13,9 @@ use paint::strokes::Action;
 use pigment::library::PigmentLibrary;
 use session::volumes::{Look, SceneRecording, SceneState, SceneTally, SceneTime};
 use session::{Command, LostSession, Origin};
-use studio::files::{Desk, DeskReference, FileRequest, Files, Home, Preferences, SceneAnswer};
+use studio::files::{
+    FileRequest, Files, Home, PinnedReference, Preferences, SceneAnswer, WindowSetup,
+};
 use web_time::{Duration, Instant};
 
 use super::bench::{
@@ -74,7 +76,7 @@ fn a_painting_whose_palette_is_damaged_opens_and_says_so() {
         panic!("{:?}", window.state().commands)
     };
     assert_eq!(**read, canvas);
-    assert!(shows(&window, "palette"), "the problem is told");
+    assert!(shows(&window, "palette"), "you see the problem");
 }
 
 #[test]
@@ -146,13 +148,13 @@ fn a_session_left_by_a_crash_is_offered_and_recovered() {
     });
     let picture_file = folder.path().join("orchard.png");
     image::RgbImage::new(4, 4).save(&picture_file).unwrap();
-    let desk = Desk {
+    let setup = WindowSetup {
         brush: Some("flat".to_owned()),
         tool: Some("pan".to_owned()),
-        reference: Some(DeskReference::new(&picture_file, &[])),
-        ..Desk::default()
+        reference: Some(PinnedReference::new(&picture_file, &[])),
+        ..WindowSetup::default()
     };
-    first.state_mut().files().note_desk(desk.clone());
+    first.state_mut().files().note_window_setup(setup.clone());
     change(&mut first);
     let kept = first.state().canvas.clone();
     until(&mut first, "an autosave of the desk", |_: &mut Window| {
@@ -177,11 +179,11 @@ fn a_session_left_by_a_crash_is_offered_and_recovered() {
     };
     let recording = session.recording.as_ref().unwrap();
     assert_eq!(recording.actions, [Action::Dry { fraction: 0.5 }], "the recording");
-    let mut found = second.state_mut().files().take_desk().unwrap();
+    let mut found = second.state_mut().files().take_window_setup().unwrap();
     let digest = found.reference.as_mut().and_then(|reference| reference.sha256.take());
     assert_eq!(digest.map(|digest| digest.len()), Some(64));
-    assert_eq!(found, desk);
-    assert!(second.state_mut().files().take_desk().is_none(), "once");
+    assert_eq!(found, setup);
+    assert!(second.state_mut().files().take_window_setup().is_none(), "once");
     assert!(second.state_mut().files().has_unsaved_changes(), "the recovered painting is unsaved");
     until(&mut second, "its own autosave", |_: &mut Window| {
         std::fs::read_dir(&sessions).unwrap().count() == 1
@@ -242,8 +244,8 @@ fn a_window_that_is_closed_while_it_saves_closes_when_it_has_saved() {
     ask(&mut window, FileRequest::Save);
     assert!(!closes(&mut window), "it is not saved yet");
     assert!(!window.state_mut().files().has_dialog(), "nothing has to be asked");
-    let told = window.state_mut().files().take_status().unwrap();
-    assert!(told.text.contains("being saved") && told.text.contains("closes"), "{told:?}");
+    let status = window.state_mut().files().take_status().unwrap();
+    assert!(status.text.contains("being saved") && status.text.contains("closes"), "{status:?}");
     window.state_mut().holds_snapshots = false;
     let mut closed = false;
     until(&mut window, "the end", |window| {
@@ -459,7 +461,7 @@ fn a_script_is_saved_beside_its_subject_only() {
     files.save_scene(&recording, folder.path().join("jug.toml"));
     let start = Instant::now();
     while window.query_by_label_contains("save it in").is_none() {
-        assert!(start.elapsed() < PATIENCE, "nothing is told");
+        assert!(start.elapsed() < PATIENCE, "there is no message");
         window.step();
     }
     assert!(!folder.path().join("jug.toml").exists(), "nothing is written");

@@ -16,7 +16,7 @@ use egui_kittest::kittest::NodeT;
 use crate::harness::Window;
 
 /// If the monkey fails, it reports this many last actions.
-const TOLD: usize = 40;
+const REPORTED: usize = 40;
 
 /// Panics of all threads, once you call [`Monkey::count_panics`].
 static PANICS: AtomicUsize = AtomicUsize::new(0);
@@ -126,11 +126,11 @@ impl Drop for Monkey {
     fn drop(&mut self) {
         if std::thread::panicking() {
             let count = self.record.len();
-            let mut told = format!("seed {}, {count} actions; the last of them:\n", self.seed);
-            for what in &self.record[count.saturating_sub(TOLD)..] {
-                let _ = writeln!(told, "  {what}");
+            let mut text = format!("seed {}, {count} actions; the last of them:\n", self.seed);
+            for what in &self.record[count.saturating_sub(REPORTED)..] {
+                let _ = writeln!(text, "  {what}");
             }
-            let _ = std::io::stderr().write_all(told.as_bytes());
+            let _ = std::io::stderr().write_all(text.as_bytes());
         }
     }
 }

@@ -112,7 +112,7 @@ fn opened(window: &mut Window, title: &str) -> SceneState {
 }
 
 /// Waits until the window shows these words.
-fn told(window: &mut Window, words: &str) {
+fn wait_for_words(window: &mut Window, words: &str) {
     let start = Instant::now();
     while !window.shows(words) {
         assert!(start.elapsed() < PATIENCE, "\"{words}\" is not shown");
@@ -131,7 +131,7 @@ fn choose(window: &mut Window, entry: &str) {
 
 /// Opens a file in the dialog that asks for one.
 fn open_in_dialog(window: &mut Window, name: &str) {
-    told(window, name);
+    wait_for_words(window, name);
     // A row contains the size and the age of its file too.
     window.harness().get_all_by_label_contains(name).next().unwrap().click();
     window.harness().run_steps(3);
@@ -144,7 +144,7 @@ fn a_wrong_file_is_told_and_dropped_models_open() {
     let folder = tempfile::tempdir().unwrap();
     let broken = file(folder.path(), "broken.obj", b"v 1 2");
     drop_file(&mut window, &broken);
-    told(&mut window, "broken.obj");
+    wait_for_words(&mut window, "broken.obj");
     window.save("volumes-wrong");
     assert_eq!(volumes(&window).state().unwrap().title, "village", "the open scene stays");
     window.click("OK");
@@ -181,7 +181,7 @@ fn a_model_that_is_dropped_on_the_easel_opens_as_a_scene_and_a_photograph_does_n
     let photograph = folder.path().join("photograph.png");
     image::RgbImage::from_pixel(48, 32, image::Rgb([200, 60, 30])).save(&photograph).unwrap();
     drop_file(&mut window, &photograph);
-    told(&mut window, "Reference picture");
+    wait_for_words(&mut window, "Reference picture");
     assert!(!window.studio().shows_volumes, "it is pinned beside the canvas");
     drop_file(&mut window, &file(folder.path(), "square.glb", &glb()));
     assert!(window.studio().shows_volumes);
@@ -232,7 +232,7 @@ fn regions_that_show_different_things_keep_them_when_the_script_is_saved() {
     window.key(Modifiers::NONE, Key::H);
     wait(&mut window, "no strokes", |volumes| !volumes.state().unwrap().look.hatching);
     window.key(Modifiers::COMMAND, Key::S);
-    told(&mut window, "Save the script");
+    wait_for_words(&mut window, "Save the script");
     window.click("Save");
     let path = folder.path().join("two-regions.toml");
     let start = Instant::now();

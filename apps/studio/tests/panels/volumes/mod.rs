@@ -242,19 +242,19 @@ fn a_right_click_tells_what_is_there() {
     window.save("volumes-card");
     // Card and panel show CIELAB, recipe, height and region as the easel's eyedropper does.
     let lab = here.lab.map(|value| format!("{value:.2}")).join(" ");
-    let told = |window: &mut Window| {
+    let counts = |window: &mut Window| {
         let mut found = |label: &str| window.harness().query_all_by_label(label).count();
         [found(&lab), found("Zinc White"), found(&format!("{height:.3} mm")), found("Copy Paint")]
     };
-    assert!(told(&mut window).into_iter().all(|count| count > 0), "{:?}", told(&mut window));
+    assert!(counts(&mut window).into_iter().all(|count| count > 0), "{:?}", counts(&mut window));
     assert!(window.harness().query_by_label_contains("inside of").is_some());
     assert_eq!(volumes(&window).state().unwrap().events.len(), 1, "it pours nothing");
     key(&mut window, Key::Escape);
     assert!(volumes(&window).here().is_none(), "Escape closes the card");
     window.frame(Vec::new());
-    assert_eq!(told(&mut window)[3], 0, "the card is closed");
+    assert_eq!(counts(&mut window)[3], 0, "the card is closed");
     window.click("Here");
-    assert!(told(&mut window).into_iter().all(|count| count > 0), "the panel keeps it");
+    assert!(counts(&mut window).into_iter().all(|count| count > 0), "the panel keeps it");
     window.save("volumes-here-panel");
 }
 

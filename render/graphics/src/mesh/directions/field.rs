@@ -190,7 +190,7 @@ fn fixed_squares(
     Ok((fixed, given))
 }
 
-/// A smaller part along an axis does not decide the sign of a connected part.
+/// The sign of an arrow comes from its first component that is larger than this.
 const LEAST_PART: f64 = 1e-3;
 
 /// Lines with signs: an arrow for every vertex, and a strength that fades to 0 where neighbours

@@ -116,8 +116,8 @@ fn unknown_material(text: &str, materials: &[tobj::Material]) -> Option<(usize, 
 fn painted(name: &str, folder: &Path, found: &tobj::Material) -> Result<Material, MeshError> {
     let texture = match &found.diffuse_texture {
         None => None,
-        Some(told) => {
-            let file = without_options(told).replace('\\', "/");
+        Some(arguments) => {
+            let file = without_options(arguments).replace('\\', "/");
             let bytes = std::fs::read(folder.join(&file)).map_err(|error| error.to_string());
             let texture = bytes.and_then(|bytes| Texture::from_bytes(&bytes));
             Some(texture.map_err(|reason| MeshError::Texture {
@@ -134,8 +134,8 @@ fn painted(name: &str, folder: &Path, found: &tobj::Material) -> Result<Material
 }
 
 /// Strips the options in front of a texture's file name, e.g. `-s 1 1 1 wood.png`.
-fn without_options(told: &str) -> &str {
-    let mut rest = told.trim();
+fn without_options(arguments: &str) -> &str {
+    let mut rest = arguments.trim();
     while rest.starts_with('-') {
         let mut after = rest.split_once(char::is_whitespace).map_or("", |(_, after)| after);
         while let Some((word, further)) = after.trim_start().split_once(char::is_whitespace) {
@@ -287,13 +287,13 @@ mod tests {
 
     #[test]
     fn a_picture_is_named_after_its_options() {
-        for (told, wanted) in [
+        for (arguments, wanted) in [
             ("wood.png", "wood.png"),
             ("-s 1 2 3 -clamp on my wood.png", "my wood.png"),
             ("-bm 0.5", "0.5"),
             ("-", ""),
         ] {
-            assert_eq!(without_options(told), wanted);
+            assert_eq!(without_options(arguments), wanted);
         }
     }
 }

@@ -50,7 +50,7 @@ impl<V> Copy for ClosedSurfaces<'_, V> {}
 pub struct Crossing {
     /// Index of the pixel, row by row.
     pub pixel: usize,
-    /// Depth as in [`crate::surface::Fragment`]. It may exceed 1, beyond the far plane.
+    /// Index of the surface.
     pub surface: u32,
     /// Depth as in [`crate::surface::Fragment`], above 1 beyond the far plane.
     pub depth: f32,

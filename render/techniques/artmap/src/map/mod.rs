@@ -344,9 +344,9 @@ impl Tile {
 const BLEND: isize = 1;
 
 /// Builds the tile that shows, at every texel, the texel of `sample` in `sources`. At a seam,
-/// neighbouring texels show places that are not neighbours in the sample. There, colour, paint and
-/// height are the means of what the texels within one texel continue to. Elsewhere you see the
-/// source alone.
+/// neighbouring texels show places that are not neighbours in the sample. There we also continue
+/// the source of each texel around to this one, and take the means of colour, paint and height.
+/// Elsewhere you see the source alone.
 fn tile_of(sample: &Sample, sources: &Field<[u16; 2]>) -> Tile {
     let size = sources.width();
     let shown: Vec<Vec<(usize, usize)>> = (0..size * size)

@@ -157,8 +157,9 @@ const REACH: isize = 2;
 /// Half the width of the neighbourhood that a texel has to fit.
 const NEAR: isize = 3;
 
-/// Synthesises the texels at seams anew. Candidates are the sources of the texels around, shifted
-/// (k-coherence, Tong and others 2002). We take the one that fits its neighbourhood best.
+/// Synthesises the texels at seams anew. The candidates for a texel are the sources of the texels
+/// around it, shifted (k-coherence, Tong and others 2002). We take the candidate that fits the
+/// neighbourhood best.
 pub(crate) fn mend(level: &Level, sources: &mut Field<[u16; 2]>) {
     let mut seams = seam_texels(level, sources);
     // Worst first, ties in the order of rows.

@@ -145,13 +145,17 @@ pub fn key_maps_with_stages(
     // We go one after the other, so that the patches of only one sample are in memory at a time.
     stages.extend(all.iter().map(|&(at, level): &(usize, usize)| {
         let sources = linked(&prepared, &maps[prepared.first][level], (at, level));
-        let shown = shown(&set.samples[at], levels - 1 - level, &sources);
+        let shown = picture_of_sources(&set.samples[at], levels - 1 - level, &sources);
         stage(format!("links-{}-level-{}", at + 1, level + 1), shown)
     }));
     stages.extend(
         all.par_iter()
             .map(|&(at, level): &(usize, usize)| {
-                let shown = shown(&set.samples[at], levels - 1 - level, &maps[at][level].sources);
+                let shown = picture_of_sources(
+                    &set.samples[at],
+                    levels - 1 - level,
+                    &maps[at][level].sources,
+                );
                 stage(format!("map-{}-level-{}", at + 1, level + 1), shown)
             })
             .collect::<Vec<_>>(),
@@ -189,7 +193,7 @@ fn shrunk(sample: &Sample, halvings: usize) -> Picture {
     )
 }
 
-fn shown(sample: &Sample, halvings: usize, sources: &Field<[u16; 2]>) -> Picture {
+fn picture_of_sources(sample: &Sample, halvings: usize, sources: &Field<[u16; 2]>) -> Picture {
     let small = shrunk(sample, halvings);
     let last = (small.width() - 1, small.height() - 1);
     let colors = sources

@@ -174,7 +174,7 @@ impl<'a> Opened<'a> {
                 parts[block.index.layer].fill(origin, &block)?;
             }
         }
-        parts.into_iter().map(|part| part.whole(origin)).collect()
+        parts.into_iter().map(|part| part.finished(origin)).collect()
     }
 }
 
@@ -212,8 +212,8 @@ impl Filling {
         Ok(())
     }
 
-    /// The part. This fails if a row is missing.
-    fn whole(self, origin: Origin<'_>) -> Result<PartPlanes, TexelFileError> {
+    /// Returns the finished part. This fails if a row is missing.
+    fn finished(self, origin: Origin<'_>) -> Result<PartPlanes, TexelFileError> {
         let plan = self.layout.plan;
         match self.rows.iter().position(|filled| !filled) {
             Some(row) => Err(origin.part(&plan.name, format!("lacks row `{row}`"))),

@@ -55,7 +55,7 @@ impl RegionMap {
             };
             let RegionArea::Material(name) = &region.area else {
                 let fault = format!("{} is an area of pictures", region.area.key());
-                return error(fault, "parts of a model are told by material = \"NAME\"");
+                return error(fault, "name the parts of a model by material = \"NAME\"");
             };
             if region.angle_deg.is_some() || region.around.is_some() {
                 let fault = "angle_deg and around are for pictures".to_owned();
@@ -122,7 +122,7 @@ impl RegionMap {
         Ok(Self { styles, of_material: vec![0], of_px: Some(of_px) })
     }
 
-    /// Number of the region of a place: of a material, at texture coordinates.
+    /// Number of the region at these texture coordinates of a material.
     pub(crate) fn at(&self, material: u32, share: Vec2) -> u16 {
         match &self.of_px {
             Some(of_px) => of_px[pixel(of_px, share)],

@@ -57,8 +57,8 @@ pub struct Region {
 /// Place of a region.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RegionArea {
-    /// Inside this polygon, in px from the upper left corner of a picture, where it crosses itself,
-    /// by the even-odd rule.
+    /// Inside this polygon, in px from the upper left corner of a picture. If the polygon crosses
+    /// itself, the even-odd rule applies.
     Polygon(Vec<[f32; 2]>),
     /// Where the picture of labels has this colour, encoded sRGB.
     Label([u8; 3]),

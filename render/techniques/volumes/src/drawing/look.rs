@@ -168,9 +168,9 @@ impl Transfer {
     pub(super) fn grey(&self, color: Vec3, weights: GreyWeights) -> f32 {
         match weights {
             GreyWeights::Luminance => {
-                let [r, g, b] = color.to_array().map(|value| between(&self.linear, value));
+                let [r, g, b] = color.to_array().map(|value| interpolated(&self.linear, value));
                 let y = LUMINANCE[0] * r + LUMINANCE[1] * g + LUMINANCE[2] * b;
-                between(&self.encoded, y)
+                interpolated(&self.encoded, y)
             }
             GreyWeights::Rec601 => color.dot(Vec3::from(LUMA)),
         }
@@ -178,7 +178,7 @@ impl Transfer {
 }
 
 #[inline(always)]
-fn between(table: &[f32], value: f32) -> f32 {
+fn interpolated(table: &[f32], value: f32) -> f32 {
     let at = value.clamp(0.0, 1.0) * STEPS as f32;
     let below = at as usize;
     table[below] + (table[below + 1] - table[below]) * (at - below as f32)

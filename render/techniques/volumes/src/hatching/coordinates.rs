@@ -85,7 +85,7 @@ impl Placing {
         let sight = Sight::new(position - self.eye, normal, self.pixel);
         match self.coordinates {
             Coordinates::Own => {
-                [own(mesh, fragment, &sight, crossed), Patch::default(), Patch::default()]
+                [own_patch(mesh, fragment, &sight, crossed), Patch::default(), Patch::default()]
             }
             Coordinates::ThreePlanes => self.planes(position, normal, &sight, crossed),
         }
@@ -158,7 +158,7 @@ impl Sight {
 }
 
 #[inline(always)]
-fn own(mesh: &PackedMesh, fragment: Fragment, sight: &Sight, crossed: bool) -> Patch {
+fn own_patch(mesh: &PackedMesh, fragment: Fragment, sight: &Sight, crossed: bool) -> Patch {
     let [a, b, c] = mesh.triangles[fragment.triangle as usize]
         .corners
         .map(|corner| &mesh.vertices[corner as usize]);

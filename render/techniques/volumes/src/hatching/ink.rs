@@ -123,7 +123,7 @@ impl<'a> Inking<'a> {
     }
 }
 
-/// The largest whole number that is not greater. Far numbers end at the range of i32.
+/// Rounds down to a whole number. Numbers beyond the range of i32 become its limits.
 #[inline(always)]
 fn floor(value: f32) -> i32 {
     let whole = value as i32;

@@ -104,10 +104,11 @@ impl Stroke {
         }
     }
 
-    /// The middle line of the stroke at `along` 0 to 1 of its length, at a `size`.
+    /// The point on the middle line of the stroke at `along`, 0 to 1 of its length, if the stroke
+    /// is drawn at this `size`.
     pub(super) fn place(&self, along: f32, size: f32) -> [f32; 2] {
         let arc = self.bow * (4.0 * along * (1.0 - along) - 0.67);
-        let down = self.slope * (along - 0.5) + arc + between(&self.wobble, along);
+        let down = self.slope * (along - 0.5) + arc + interpolated(&self.wobble, along);
         [self.middle[0] + size * self.length * (along - 0.5), self.middle[1] + size * down]
     }
 
@@ -126,7 +127,7 @@ impl Stroke {
         let from_start = (1.0 - along / start).max(0.0);
         let to_end = (1.0 - (1.0 - along) / end).max(0.0);
         let ends = 0.4 * from_start * from_start + 0.6 * to_end * to_end;
-        between(&self.pressure, along) + ends
+        interpolated(&self.pressure, along) + ends
     }
 }
 
@@ -136,7 +137,7 @@ fn rim(away: f32) -> f32 {
     if away < 1.0 { RIM * away * away } else { RIM + BEYOND * (away - 1.0) }
 }
 
-fn between(knots: &[f32; KNOTS], along: f32) -> f32 {
+fn interpolated(knots: &[f32; KNOTS], along: f32) -> f32 {
     let at = along * (KNOTS - 1) as f32;
     let below = (at as usize).min(KNOTS - 2);
     let share = at - below as f32;

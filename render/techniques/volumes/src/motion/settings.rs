@@ -1,6 +1,5 @@
-//! How stiff volumes are, how much friction they have, how rough they grow.
-//!
-//! Why volumes cannot be moved.
+//! Settings of the motion of volumes, for example stiffness, friction and roughness, and the error
+//! that you get if volumes cannot be moved.
 
 use documents::hint::Explain;
 use graphics::gpu::DeviceError;

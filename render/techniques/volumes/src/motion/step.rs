@@ -348,7 +348,8 @@ pub(super) struct Acting {
 }
 
 impl Acting {
-    /// All that moves a volume. `None` for one that is dry, or that rested under the same forces.
+    /// Collects what moves a volume in this step. `None` if the volume is dry, or came to rest
+    /// under the same forces.
     pub(super) fn on(volume: &Volume, conditions: Conditions<'_>) -> Option<Self> {
         let Conditions { settings, surroundings, .. } = conditions;
         let least = LEAST_RADIUS * surroundings.cell;

@@ -32,7 +32,7 @@ pub struct SurfaceLattice {
     /// For every box, the index of its sample, or [`NONE`].
     pub(super) boxes: Vec<u32>,
     pub(super) places: Vec<Vec3>,
-    print: [u32; 2],
+    fingerprint: [u32; 2],
 }
 
 impl SurfaceLattice {
@@ -61,10 +61,10 @@ impl SurfaceLattice {
         let counts = sides.to_array().map(|side| side as usize);
         let low = low - cell;
         let places = places.to_vec();
-        let print = print_of(&places);
+        let fingerprint = fingerprint_of(&places);
         let tables = Vec::new();
         let boxes = Vec::new();
-        let mut lattice = Self { cell, low, counts, tables, boxes, places, print };
+        let mut lattice = Self { cell, low, counts, tables, boxes, places, fingerprint };
         lattice.fill();
         Ok(lattice)
     }
@@ -124,8 +124,8 @@ impl SurfaceLattice {
     }
 
     /// Two numbers that distinguish its samples from others.
-    pub(super) fn print(&self) -> [u32; 2] {
-        self.print
+    pub(super) fn fingerprint(&self) -> [u32; 2] {
+        self.fingerprint
     }
 
     fn fill(&mut self) {
@@ -233,7 +233,7 @@ impl SurfaceLattice {
 }
 
 /// Two sums over the bits of all places (Fletcher 1982).
-fn print_of(places: &[Vec3]) -> [u32; 2] {
+fn fingerprint_of(places: &[Vec3]) -> [u32; 2] {
     let words = places.iter().flat_map(|place| place.to_array()).map(f32::to_bits);
     words.fold([0, 1], |[sum, of_sums]: [u32; 2], word| {
         let sum = sum.wrapping_add(word).rotate_left(5);

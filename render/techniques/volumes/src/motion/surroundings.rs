@@ -80,8 +80,10 @@ impl Surroundings {
     /// pushes. If you change a force, this number changes.
     pub(crate) fn fingerprint(&self, settings: &MotionSettings) -> u64 {
         // FNV-1a (Fowler, Noll, Vo 1991) over words.
-        let mut print = 0xcbf2_9ce4_8422_2325_u64;
-        let mut add = |word: u32| print = (print ^ u64::from(word)).wrapping_mul(0x0100_0000_01b3);
+        let mut fingerprint = 0xcbf2_9ce4_8422_2325_u64;
+        let mut add = |word: u32| {
+            fingerprint = (fingerprint ^ u64::from(word)).wrapping_mul(0x0100_0000_01b3);
+        };
         for (_, value, ..) in settings.numbers() {
             add(value.to_bits());
         }
@@ -93,10 +95,10 @@ impl Surroundings {
         for value in self.regions.iter().flat_map(KeepIn::numbers) {
             add(value.to_bits());
         }
-        let [high, low] = self.surface.as_ref().map_or([0, 1], |lattice| lattice.print());
+        let [high, low] = self.surface.as_ref().map_or([0, 1], |lattice| lattice.fingerprint());
         add(high);
         add(low);
-        print | 1
+        fingerprint | 1
     }
 }
 

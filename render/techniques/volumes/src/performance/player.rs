@@ -8,7 +8,7 @@ use graphics::surface::{NO_TRIANGLE, VisibilityBuffer, position_at, visible};
 
 use super::error::PerformanceError;
 use crate::motion::{KeepIn, MotionError, Push};
-use crate::saved::{Kind, Reader, SavedError, Stored, identity, opened, sealed};
+use crate::saved::{Kind, Reader, SavedError, Stored, file_of_state, identity, state_of_file};
 use crate::script::{
     self, Action, Ball, Dry, Event, KeepTable, Place, Quantity, Script, seconds_of,
 };
@@ -386,7 +386,7 @@ impl Performance {
         (self.next as u64).store(&mut state);
         self.singles.store(&mut state);
         self.world.store_state(&mut state);
-        sealed(PERFORMANCE, &self.identity(wish), &state)
+        file_of_state(PERFORMANCE, &self.identity(wish), &state)
     }
 
     /// Resumes the moment that [`Performance::saved`] gave as `file`. This performance must play
@@ -396,7 +396,7 @@ impl Performance {
     /// [`SavedError`] if the file holds no such moment or one of another version, is damaged, or
     /// was saved over another scene, with other settings or events, or under another wish.
     pub fn resumed(&self, file: &[u8], wish: &str) -> Result<Self, SavedError> {
-        let state = opened(PERFORMANCE, &self.identity(wish), file)?;
+        let state = state_of_file(PERFORMANCE, &self.identity(wish), file)?;
         let mut reader = Reader::new(state);
         let moment = self.with_state(&mut reader).filter(|_| reader.is_empty());
         moment.ok_or(SavedError::Damaged)
@@ -415,6 +415,6 @@ impl Performance {
     /// The digest of all that decides how it continues, except its state.
     fn identity(&self, wish: &str) -> [u8; 32] {
         let done = format!("{:?} {:?} {:?}", self.script, self.events, self.picked);
-        identity([wish, &self.world.print(), &done])
+        identity([wish, &self.world.fingerprint(), &done])
     }
 }

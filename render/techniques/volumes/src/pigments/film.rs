@@ -150,15 +150,15 @@ pub struct FilmSum<'a> {
 }
 
 impl FilmSum<'_> {
-    /// Heights at a place on a surface with this normal. This sums over all volumes that hold the
-    /// place.
+    /// Sum of the film heights at a place on a surface with this normal, over all volumes that hold
+    /// the place.
     #[must_use]
     pub fn at(&self, place: Vec3, normal: Vec3) -> FilmHeights {
         self.on_body(place, normal, 0)
     }
 
-    /// Heights at a place on a surface with this normal, on the body with this number. Number 0
-    /// takes all volumes.
+    /// Like [`Self::at`], but only for the volumes that wet the body number `body`. If you pass 0,
+    /// all volumes count.
     #[must_use]
     pub fn on_body(&self, place: Vec3, normal: Vec3, body: u32) -> FilmHeights {
         let mut sum = FilmHeights::default();

@@ -210,7 +210,8 @@ impl FilmPainter {
             }
             Coat::OwnColors => {
                 for (x, (amounts, &color)) in out.iter_mut().zip(row.color).enumerate() {
-                    *amounts = self.own(color, row.cover_at(x) * self.own_share(&row, x));
+                    *amounts =
+                        self.own_color_amounts(color, row.cover_at(x) * self.own_share(&row, x));
                 }
             }
             Coat::Hatching => {
@@ -237,7 +238,7 @@ impl FilmPainter {
         }
     }
 
-    fn own(&self, [r, g, b, _]: [f32; 4], share: f32) -> [u32; SLOTS] {
+    fn own_color_amounts(&self, [r, g, b, _]: [f32; 4], share: f32) -> [u32; SLOTS] {
         let Some(own) = self.own_colors.as_ref().filter(|_| share > 0.0) else {
             return [0; SLOTS];
         };

@@ -310,8 +310,7 @@ mod tests {
         assert!(most_apart(&swapped, &before) > 0.02);
     }
 
-    /// The film of one cell with equal amounts of the first two pigments of a painter. Two volumes
-    /// lay them.
+    /// The films of two volumes on one cell: equal amounts of the first two pigments of a painter.
     fn laid_by_two(half_mm: f64) -> Field<FilmHeights> {
         let mut sum = FilmHeights::default();
         for slot in [0, 1] {

@@ -276,7 +276,8 @@ fn check_keep(key: &KeyPath, keep: &KeepTable) -> Checked {
     }
 }
 
-/// A table needs exactly one of `names`. This is its fault if it has `keys`.
+/// The fault of a table that has none or several of the keys in `names`, although it needs exactly
+/// one. `keys` lists the ones that it has.
 fn one_of(table: &KeyPath, names: &str, keys: &[Option<&str>]) -> Checked {
     let given: Vec<&str> = keys.iter().flatten().copied().collect();
     let (key, found, hint) = match given[..] {

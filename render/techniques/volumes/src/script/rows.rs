@@ -215,7 +215,7 @@ pub(super) fn check_range(key: &KeyPath, value: f64, [least, most]: [f64; 2]) ->
         _ if value > most => format!("the most is {most}"),
         _ => "write a number".to_owned(),
     };
-    Err(Fault::new(key, format!("{least} to {most}"), shown(value), hint))
+    Err(Fault::new(key, format!("{least} to {most}"), number_text(value), hint))
 }
 
 pub(super) fn check_positive(key: &KeyPath, value: f64, most: f64) -> Checked {
@@ -226,7 +226,7 @@ pub(super) fn check_positive(key: &KeyPath, value: f64, most: f64) -> Checked {
         true => format!("the most is {most}"),
         false => "write a number above 0, or leave the table out".to_owned(),
     };
-    Err(Fault::new(key, format!("a number above 0, up to {most}"), shown(value), hint))
+    Err(Fault::new(key, format!("a number above 0, up to {most}"), number_text(value), hint))
 }
 
 pub(super) fn check_time(key: &KeyPath, seconds: f64) -> Checked {
@@ -252,7 +252,7 @@ pub(super) fn check_direction(key: &KeyPath, direction: [f64; 3]) -> Checked {
 }
 
 /// A number as text. Large ones have an exponent: for example, 1e300 would take 301 digits.
-fn shown(value: f64) -> String {
+fn number_text(value: f64) -> String {
     if value.abs() < 1e9 { value.to_string() } else { format!("{value:e}") }
 }
 
@@ -283,8 +283,8 @@ mod tests {
         assert!(frames_fit(3333.3, 30.0).is_ok() && frames_fit(3600.0, 27.7).is_ok());
         let fault = cells_too_small(0.001, 0.002_105_3);
         assert_eq!(fault.hint().unwrap().to_string(), "cell = 0.00211 fits");
-        let told = "grid.cell takes a width of at most 1048576 cells, found `0.001`";
-        assert_eq!(fault.to_string(), told);
+        let message = "grid.cell takes a width of at most 1048576 cells, found `0.001`";
+        assert_eq!(fault.to_string(), message);
         assert_eq!(check_particles(&[3; 3000]), Ok(()));
         let fault = check_particles(&[5; 300]).unwrap_err();
         assert_eq!(fault.key.to_string(), "[[volume]] 196, detail");

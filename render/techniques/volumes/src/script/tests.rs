@@ -111,7 +111,7 @@ fn settings_and_regions_are_put_together() {
 #[test]
 fn events_are_sorted_by_steps_of_a_hundred_and_twentieth_second() {
     let events = script(WHOLE).events();
-    let told: Vec<_> =
+    let recorded: Vec<_> =
         events.iter().map(|event| (event.start, event.end, event.table.to_string())).collect();
     let wanted = [
         (0, 1, "[[volume]] 1"),
@@ -123,7 +123,7 @@ fn events_are_sorted_by_steps_of_a_hundred_and_twentieth_second() {
         (600, 601, "[[dry]] 1"),
         (660, 661, "[[dry]] 2"),
     ];
-    assert_eq!(told, wanted.map(|(start, end, table)| (start, end, table.to_owned())));
+    assert_eq!(recorded, wanted.map(|(start, end, table)| (start, end, table.to_owned())));
     let Action::Pour(pour) = &events[2].action else { panic!("{:?}", events[2]) };
     assert_eq!((pour.region, pour.quantity), (1, Quantity::Rate(40.0)));
     assert_eq!(pour.place.at(0.5), Some([0.2, 0.6, 0.275]));
@@ -206,8 +206,8 @@ fn pigments_are_found_by_their_letters() {
         let fault = script(&text).slots(&library).unwrap_err();
         let error = ScriptError::located("s.toml", &text, fault);
         assert_eq!(error.to_string(), format!("s.toml, line 7: palette.Y takes {wanted}"));
-        let told = Explain::hint(&error).unwrap().to_string();
-        assert!(told.starts_with(hint), "{told}");
+        let advice = Explain::hint(&error).unwrap().to_string();
+        assert!(advice.starts_with(hint), "{advice}");
     }
 }
 
@@ -432,9 +432,9 @@ fn fault(text: &str) -> [String; 2] {
 
 /// Asserts that the error of `text` begins with `wanted`, and its hint with `hint`.
 fn assert_fault(text: &str, wanted: &str, hint: &str) {
-    let [error, told] = fault(text);
+    let [error, advice] = fault(text);
     assert!(error.starts_with(wanted), "{text}\n{error}\nnot {wanted}");
-    assert!(told.starts_with(hint), "{text}\n{error}\n{told}\nnot {hint}");
+    assert!(advice.starts_with(hint), "{text}\n{error}\n{advice}\nnot {hint}");
 }
 
 #[test]
@@ -624,9 +624,9 @@ fn limits_say_what_fits() {
         ),
         (format!("{SHORT}#{}", "x".repeat(16 << 20)), "s.toml: it has 16777", "divide it"),
     ] {
-        let [error, told] = fault(&text);
+        let [error, advice] = fault(&text);
         assert!(error.starts_with(wanted), "{error}\nnot {wanted}");
-        assert!(told.starts_with(hint), "{told}\nnot {hint}");
+        assert!(advice.starts_with(hint), "{advice}\nnot {hint}");
     }
     assert!(Script::from_text("s.toml", &many(volume, 4096)).is_ok());
 }
@@ -740,9 +740,12 @@ fn read(seed: u64, count: usize) -> usize {
                 true
             }
             Err(error) => {
-                let told = error.to_string();
-                assert!(told.starts_with("s.toml, line ") && told.len() < 4000, "{text}\n{told}");
-                assert!(error.hint().is_some(), "{text}\n{told}");
+                let message = error.to_string();
+                assert!(
+                    message.starts_with("s.toml, line ") && message.len() < 4000,
+                    "{text}\n{message}"
+                );
+                assert!(error.hint().is_some(), "{text}\n{message}");
                 false
             }
         }

@@ -90,7 +90,7 @@ impl Graph {
         self.starts[cell] as usize..self.starts[cell + 1] as usize
     }
 
-    /// The graph without the links of other cells than those `kept`.
+    /// The graph with only those links that connect two cells for which `kept` is true.
     #[must_use]
     pub fn cut(&self, kept: impl Fn(usize) -> bool) -> Self {
         let from = (0..self.len()).filter(|&cell| kept(cell));
@@ -146,7 +146,7 @@ fn axes_of(step: [i32; 3]) -> u8 {
     step.iter().map(|value| value.unsigned_abs() as u8).sum()
 }
 
-/// One direction of each pair of opposite ones to the 26 cells around a cell.
+/// Directions to 13 of the 26 cells around a cell: of two opposite directions, one.
 fn forward_steps() -> impl Iterator<Item = [i32; 3]> {
     (14..27).map(|i| [i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1])
 }

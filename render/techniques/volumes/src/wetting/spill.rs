@@ -14,7 +14,7 @@ pub const FASTEST_RATE: f32 = 0.067;
 
 const STEEPEST: f32 = 1000.0;
 
-/// One in heads and shares.
+/// The number 1 in heads and shares.
 const ONE: u64 = 1 << 16;
 
 /// A thread works on this many cells at a time.
@@ -37,7 +37,7 @@ pub struct Spilling {
     pub(super) rates: [u64; 3],
     /// Height of each cell as a head, in parts of 65536.
     pub(super) lifts: Vec<u32>,
-    /// Whether cells lie at different heights, or hold less than 16 films.
+    /// Whether cells lie at different heights, or a cell has no room for 16 films.
     pub(super) uneven: bool,
     volumes: Vec<u32>,
     heads: Vec<u32>,

@@ -9,7 +9,9 @@ use super::actions::{Lift, Pour, Source, Timed};
 use super::settings::{MOST_PARTICLES, MOST_VOLUMES, WorldError, WorldSettings};
 use super::state::World;
 use crate::motion::{KeepIn, Push};
-use crate::saved::{Kind, Reader, SavedError, Stored, identity, opened, sealed, stored};
+use crate::saved::{
+    Kind, Reader, SavedError, Stored, file_of_state, identity, state_of_file, stored,
+};
 use crate::volume::{MOST_DETAIL, Particles, SphereMesh, Volume};
 use crate::wetting::Spilling;
 
@@ -80,7 +82,7 @@ impl World {
     pub fn saved(&self, wish: &str) -> Vec<u8> {
         let mut state = Vec::new();
         self.store_state(&mut state);
-        sealed(WORLD, &identity([wish, &self.print()]), &state)
+        file_of_state(WORLD, &identity([wish, &self.fingerprint()]), &state)
     }
 
     /// Resumes the world that [`World::saved`] gave as `file`. This world must have the same
@@ -90,14 +92,14 @@ impl World {
     /// [`SavedError`] if the file holds no world or one of another version, is damaged, or was
     /// saved over another scene, with other settings, in other regions, or under another wish.
     pub fn resumed(&self, file: &[u8], wish: &str) -> Result<Self, SavedError> {
-        let state = opened(WORLD, &identity([wish, &self.print()]), file)?;
+        let state = state_of_file(WORLD, &identity([wish, &self.fingerprint()]), file)?;
         let mut reader = Reader::new(state);
         let world = self.with_state(&mut reader).ok_or(SavedError::Damaged)?;
         if reader.is_empty() { Ok(world) } else { Err(SavedError::Damaged) }
     }
 
     /// Words for scene, settings and regions. If these differ, so do the words.
-    pub(crate) fn print(&self) -> String {
+    pub(crate) fn fingerprint(&self) -> String {
         let forces = self.surroundings.fingerprint(&self.settings.motion);
         let cells = self.grid.cells.len();
         let samples = self.whole.samples.len();

@@ -1,6 +1,4 @@
-//! Settings of a world, and lengths that follow from them.
-//!
-//! Errors of worlds.
+//! Settings of a world, the lengths that follow from them, and errors of worlds.
 
 use documents::hint::Explain;
 use glam::Vec3;

@@ -49,7 +49,7 @@ struct Bloom {
     x: f32,
     y: f32,
     radius: f32,
-    /// Where the lobes of its front are taken from the noise.
+    /// Where we take the lobes of its front from the noise.
     lobes: [f32; 2],
     /// Cosine and sine of the direction in which it is longer.
     along: [f32; 2],

@@ -16,22 +16,22 @@ use crate::pen::DrawingAids;
 /// The view of the canvas, the brush and tool in hand, and the reference picture.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Desk {
+pub struct WindowSetup {
     /// Name of the selected brush.
     pub brush: Option<String>,
     /// Name of the selected tool.
     pub tool: Option<String>,
     /// The view of the canvas.
-    pub view: Option<DeskView>,
+    pub view: Option<CanvasView>,
     /// Ruler, perspective and symmetry.
     pub aids: Option<DrawingAids>,
     /// The picture beside the canvas.
-    pub reference: Option<DeskReference>,
+    pub reference: Option<PinnedReference>,
 }
 
 /// A view of the canvas, see [`ViewState`](crate::view::ViewState).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct DeskView {
+pub struct CanvasView {
     /// The position in the middle, in cells.
     pub centre: [f64; 2],
     /// Physical pixels per cell.
@@ -46,7 +46,7 @@ pub struct DeskView {
 
 /// The reference picture and the lines drawn on it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct DeskReference {
+pub struct PinnedReference {
     /// File of the picture.
     pub picture: PathBuf,
     /// SHA-256 digest of this file, in hexadecimal digits; `None` if we could not read it.
@@ -54,12 +54,12 @@ pub struct DeskReference {
     pub sha256: Option<String>,
     /// Lines drawn on it.
     #[serde(default)]
-    pub drawings: Vec<DeskDrawing>,
+    pub drawings: Vec<SavedDrawing>,
 }
 
 /// Lines drawn on the reference picture.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct DeskDrawing {
+pub struct SavedDrawing {
     /// Whether these are marks of samples. If not, they are guides of strokes.
     pub marks: bool,
     /// The file of these lines, or the file that we suggest for them.
@@ -68,13 +68,13 @@ pub struct DeskDrawing {
     pub toml: String,
 }
 
-impl DeskReference {
+impl PinnedReference {
     /// The reference picture in a file, and its drawings. We do not know its digest yet.
     #[must_use]
     pub fn new(picture: &Path, drawings: &[DrawnFile]) -> Self {
         let drawings = drawings
             .iter()
-            .map(|DrawnFile { drawing, path }: &DrawnFile| DeskDrawing {
+            .map(|DrawnFile { drawing, path }: &DrawnFile| SavedDrawing {
                 marks: drawing.kind() == DrawingKind::Marks,
                 path: path.clone(),
                 toml: match drawing {
@@ -91,7 +91,7 @@ impl DeskReference {
     pub fn drawn(&self) -> Vec<DrawnFile> {
         self.drawings
             .iter()
-            .filter_map(|DeskDrawing { marks, path, toml }| {
+            .filter_map(|SavedDrawing { marks, path, toml }| {
                 let name = path.display().to_string();
                 let drawing = if *marks {
                     Drawing::Marks(Marks::from_toml(&name, toml).ok()?)
@@ -131,7 +131,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_desk_is_read_as_it_was_written_and_a_changed_picture_is_told_of() {
+    fn a_window_setup_is_read_as_it_was_written_and_a_changed_picture_is_told_of() {
         let folder = tempfile::tempdir().unwrap();
         let picture = folder.path().join("orchard.png");
         std::fs::write(&picture, b"first").unwrap();
@@ -147,20 +147,26 @@ mod tests {
         };
         let path = picture.with_extension("marks.toml");
         let drawn = DrawnFile { drawing: Drawing::Marks(marks), path };
-        let mut reference = DeskReference::new(&picture, std::slice::from_ref(&drawn));
+        let mut reference = PinnedReference::new(&picture, std::slice::from_ref(&drawn));
         assert_eq!(reference.remark(), None, "nothing is known of the picture");
         reference.sha256 = digest_of(&picture);
-        let view =
-            DeskView { centre: [3.5, 4.0], zoom: 2.0, rotation: 0.25, mirror: true, fitted: false };
-        let desk = Desk {
+        let view = CanvasView {
+            centre: [3.5, 4.0],
+            zoom: 2.0,
+            rotation: 0.25,
+            mirror: true,
+            fitted: false,
+        };
+        let setup = WindowSetup {
             brush: Some("flat".to_owned()),
             tool: Some("pan".to_owned()),
             view: Some(view),
             aids: Some(DrawingAids { snaps: false, ..DrawingAids::default() }),
             reference: Some(reference),
         };
-        let read: Desk = serde_json::from_value(serde_json::to_value(&desk).unwrap()).unwrap();
-        assert_eq!(read, desk);
+        let read: WindowSetup =
+            serde_json::from_value(serde_json::to_value(&setup).unwrap()).unwrap();
+        assert_eq!(read, setup);
         let reference = read.reference.unwrap();
         let Drawing::Marks(found) = &reference.drawn()[0].drawing else { panic!("marks") };
         let Drawing::Marks(wanted) = &drawn.drawing else { panic!("marks") };
@@ -170,7 +176,7 @@ mod tests {
         assert!(reference.remark().unwrap().text.contains("changed"));
         std::fs::remove_file(&picture).unwrap();
         assert!(reference.remark().unwrap().text.contains("cannot be read"));
-        let older: Desk = serde_json::from_str("{}").unwrap();
-        assert_eq!(older, Desk::default());
+        let older: WindowSetup = serde_json::from_str("{}").unwrap();
+        assert_eq!(older, WindowSetup::default());
     }
 }
