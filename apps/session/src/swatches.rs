@@ -175,11 +175,10 @@ impl KeptMixture {
     }
 
     /// Colour of the mixture on the screen. If `library` can mix it, this is its colour under the
-    /// light of
-    /// `weights`, else the colour that was saved.
+    /// light of `weights`, else the colour that was saved.
     #[must_use]
     pub fn screen_color(&self, library: &PigmentLibrary, weights: &TristimulusWeights) -> [u8; 3] {
-        let now = self.appearance(library, weights).map(shown);
+        let now = self.appearance(library, weights).map(screen_rgb);
         now.or_else(|| Rgb::from_hex(&self.color)).unwrap_or(Rgb([0.5; 3])).to_bytes()
     }
 

@@ -229,8 +229,7 @@ fn binary_gltf_and_strips_and_fans() {
 }
 
 /// Asserts that the first file is refused with a hint and a message of one line with its name and
-/// all of
-/// `wanted`.
+/// all of `wanted`.
 #[track_caller]
 fn refused(files: &[(&str, &[u8])], wanted: &[&str]) {
     let error = opened(files).unwrap_err();

@@ -110,7 +110,8 @@ pub(super) fn plan_strokes(
             let lightness = separation.film().lab(&heights).lightness;
             let height_mm = film_mm.max(impasto_mm(plan, level, lightness));
             let samples = poses(path, plan, size, cell_mm);
-            let length = path.windows(2).map(|ends| distance(ends[0], ends[1])).sum::<f64>() / size;
+            let length =
+                path.windows(2).map(|ends| point_distance(ends[0], ends[1])).sum::<f64>() / size;
             let stroke = PlannedStroke {
                 level,
                 recipe: heights.map(|height| height / film_mm),
@@ -148,7 +149,7 @@ impl Square {
     /// square, and the mean difference of the square. `None` for an empty square.
     fn worst(&self, difference: &Field<f32>) -> Option<([f64; 2], f32)> {
         let middle = [self.x, self.y].map(|(from, to)| (from + to) as f64 / 2.0);
-        let reach = distance([self.x.0 as f64, self.y.0 as f64], middle);
+        let reach = point_distance([self.x.0 as f64, self.y.0 as f64], middle);
         let mut sum = 0.0;
         let mut worst = None;
         for y in self.y.0..self.y.1 {
@@ -156,7 +157,8 @@ impl Square {
                 let place = [x as f64 + 0.5, y as f64 + 0.5];
                 let here = difference[(x, y)];
                 sum += here;
-                let weighted = f64::from(here) * (1.0 - 0.1 * distance(place, middle) / reach);
+                let weighted =
+                    f64::from(here) * (1.0 - 0.1 * point_distance(place, middle) / reach);
                 if worst.is_none_or(|(value, _)| weighted > value) {
                     worst = Some((weighted, place));
                 }
@@ -209,7 +211,7 @@ fn lines(cells: usize, step: f64, random: &mut ChaCha8Rng) -> Vec<usize> {
 /// down and leaves.
 fn cover(difference: &mut Field<f32>, path: &[[f64; 2]], size: f64) {
     let radius = COVER * size / 2.0;
-    let apart = path.windows(2).map(|ends| distance(ends[0], ends[1])).fold(1e-9, f64::max);
+    let apart = path.windows(2).map(|ends| point_distance(ends[0], ends[1])).fold(1e-9, f64::max);
     let end = ((size / 4.0 / apart) as usize).min((path.len() - 1) / 2);
     for &[x, y] in &path[end..path.len() - end] {
         let span = |middle: f64, cells: usize| {
@@ -219,7 +221,7 @@ fn cover(difference: &mut Field<f32>, path: &[[f64; 2]], size: f64) {
         for row in span(y, difference.height()) {
             for column in span(x, difference.width()) {
                 let place = [column as f64 + 0.5, row as f64 + 0.5];
-                if distance(place, [x, y]) <= radius.max(0.5) {
+                if point_distance(place, [x, y]) <= radius.max(0.5) {
                     difference[(column, row)] = 0.0;
                 }
             }
@@ -242,7 +244,7 @@ fn mean_color(picture: &Picture, path: &[[f64; 2]]) -> [f32; 3] {
 pub(super) fn poses(path: &[[f64; 2]], plan: &Plan, size: f64, cell_mm: f64) -> Vec<Sample> {
     let mut walked = vec![0.0];
     for ends in path.windows(2) {
-        walked.push(walked[walked.len() - 1] + distance(ends[0], ends[1]));
+        walked.push(walked[walked.len() - 1] + point_distance(ends[0], ends[1]));
     }
     let length = walked[walked.len() - 1];
     let taper = size.min(length / 2.0).max(1e-9);
@@ -271,7 +273,7 @@ pub(super) fn poses(path: &[[f64; 2]], plan: &Plan, size: f64, cell_mm: f64) -> 
         .collect()
 }
 
-fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+fn point_distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (b[0] - a[0]).hypot(b[1] - a[1])
 }
 

@@ -186,8 +186,7 @@ const NINE: [&str; 9] = [
 
 impl Folder {
     /// A painting of 80 x 60 cells with upright strokes 4 mm (8 cells) apart in two pigments. If it
-    /// is
-    /// `crowded`, there are touches of seven more below.
+    /// is `crowded`, there are touches of seven more below.
     fn painting(&self, crowded: bool) -> String {
         fn load(pigment: &str, mm: f64) -> Value {
             json!({"load": {"brush": "flat", "recipe": {pigment: 1}, "amount_mm": mm}})
