@@ -11,13 +11,13 @@
 //! ```
 //!
 //! ```
-//! use pigment::{MatchOptions, PigmentLibrary, Viewing};
+//! use pigment::{MatchRequest, PigmentLibrary, Viewing};
 //!
 //! let oils = PigmentLibrary::van_gogh_oils();
 //! let color = oils.color([("Zinc White", 9.0), ("Cobalt Blue", 1.0)], &Viewing::default())?;
 //! println!("{} L* {:.1}", color.hex(), color.lab.lightness);
 //!
-//! let options = MatchOptions { at_most: 3, ..MatchOptions::default() };
+//! let options = MatchRequest { at_most: 3, ..MatchRequest::default() };
 //! let found = oils.recipes_for(&"#4a7d8c".parse()?, &options)?;
 //! println!("nearest: {:.2} CIEDE2000", found.nearest());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -42,7 +42,7 @@ pub use color::{
 pub use evaluate::{Remark, RemarkKind, Viewing};
 pub use library::{LibraryError, Pigment, PigmentLibrary, RecipeError};
 pub use matching::{
-    ColorTarget, MatchError, MatchOptions, PriceList, RecipeMatch, RecipeMatches, ViewingCondition,
+    ColorTarget, MatchError, MatchRequest, PriceList, RecipeMatch, RecipeMatches, ViewingCondition,
 };
 pub use recipe::{Curves, PigmentId, Recipe};
 

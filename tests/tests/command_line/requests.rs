@@ -1,6 +1,6 @@
 //! Requests: the schema of all of them is docs/schema/requests.json, and their keys are options.
 
-use calibrate::matching::{CorrectRequest, MatchOptions};
+use calibrate::matching::{CorrectRequest, MatchRequest};
 use calibrate::plan::PlanRequest;
 use calibrate::quadrature::QuadratureRequest;
 use calibrate::{FitRequest, ValidationRequest};
@@ -16,7 +16,7 @@ fn schema() -> String {
     generator.subschema_for::<FitRequest>();
     generator.subschema_for::<ValidationRequest>();
     generator.subschema_for::<PlanRequest>();
-    generator.subschema_for::<MatchOptions>();
+    generator.subschema_for::<MatchRequest>();
     generator.subschema_for::<CorrectRequest>();
     generator.subschema_for::<QuadratureRequest>();
     generator.subschema_for::<ReportRequest>();

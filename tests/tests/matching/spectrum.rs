@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use calibrate::PigmentId;
 use calibrate::library::PigmentLibrary;
 use calibrate::matching::{
-    ColorTarget, FilmKind, MatchError, MatchOptions, MatchRequest, Metric, RecipeMatch,
+    ColorTarget, FilmKind, MatchError, MatchRequest, Metric, RecipeLimits, RecipeMatch,
     RequiredName, RequiredPigment, SpectrumWeights, Target, Thickness, ToleranceOrigin, recipes,
 };
 use documents::hint::Explain;
@@ -19,12 +19,12 @@ use spectra::{Extrapolation, Grid, Interpolation, Reflectance, Spectrum, Viewing
 
 use super::{conditions, oils};
 
-fn by_spectrum(weights: SpectrumWeights) -> MatchOptions {
-    MatchOptions {
+fn by_spectrum(weights: SpectrumWeights) -> MatchRequest {
+    MatchRequest {
         metric: Metric::Spectrum(weights),
         conditions: conditions(&["D65", "A", "FL11"]),
         count: 1,
-        ..MatchOptions::default()
+        ..MatchRequest::default()
     }
 }
 
@@ -54,7 +54,7 @@ fn a_mixture_is_found_again_from_its_own_spectrum() {
     for recipe in recipes {
         for weights in [SpectrumWeights::Even, SpectrumWeights::Observer] {
             let target = measured(&library, recipe);
-            let options = MatchOptions { tolerance: Some(0.0), ..by_spectrum(weights) };
+            let options = MatchRequest { tolerance: Some(0.0), ..by_spectrum(weights) };
             let found = library.recipes_for(&target, &options).unwrap();
             let best = &found.recipes[0];
             let rms = best.rms_percent.unwrap();
@@ -78,7 +78,7 @@ fn a_film_is_found_again_with_its_thickness() {
     let recipe = [("Viridian", 0.6), ("Ultramarine", 0.4)];
     let color = library.film_color(recipe, &film, &Viewing::default()).unwrap();
     let target = ColorTarget::measured("glaze", color.reflectance);
-    let options = MatchOptions {
+    let options = MatchRequest {
         thickness: Some(Thickness::Between(0.1, 5.0)),
         over: Some(calibrate::Backing::Even(0.85)),
         tolerance: Some(0.0),
@@ -96,7 +96,7 @@ fn a_film_is_found_again_with_its_thickness() {
 fn limits_of_recipes_hold_by_spectrum_too() {
     let library = oils();
     let target = measured(&library, &[("Zinc White", 0.7), ("Cobalt Blue", 0.2), ("Minium", 0.1)]);
-    let of = |change: &dyn Fn(&mut MatchOptions)| {
+    let of = |change: &dyn Fn(&mut MatchRequest)| {
         let mut options = by_spectrum(SpectrumWeights::Even);
         change(&mut options);
         library.recipes_for(&target, &options).unwrap()
@@ -130,7 +130,7 @@ fn the_difference_is_the_root_mean_square_over_the_shared_band() {
     let cut = color.reflectance.resampled(band, Interpolation::Linear, Extrapolation::Hold);
     let values = cut.unwrap().values().iter().map(|value| value + 0.02).collect();
     let target = Spectrum::<Reflectance>::new(band, values).unwrap();
-    let options = MatchOptions {
+    let options = MatchRequest {
         with: recipe
             .map(|(name, share)| RequiredName { name: name.into(), share: Some(share) })
             .into(),
@@ -175,31 +175,31 @@ fn the_tolerance_is_in_percent_of_reflectance() {
     let library = oils();
     let options = by_spectrum(SpectrumWeights::Even);
     let search = library.recipe_search(&options).unwrap();
-    assert_eq!((search.request.tolerance, search.tolerance_origin), (0.2, ToleranceOrigin::Usual));
+    assert_eq!((search.limits.tolerance, search.tolerance_origin), (0.2, ToleranceOrigin::Usual));
     let target = measured(&library, &[("Zinc White", 0.5), ("Minium", 0.3), ("Viridian", 0.2)]);
     let plain = |tolerance: f64| {
-        let options = MatchOptions { tolerance: Some(tolerance), ..options.clone() };
+        let options = MatchRequest { tolerance: Some(tolerance), ..options.clone() };
         library.recipes_for(&target, &options).unwrap().recipes[0].shares.len()
     };
     assert!(plain(0.0) == 3 && plain(20.0) == 1, "{} {}", plain(0.0), plain(20.0));
 }
 
-fn target(request: &MatchRequest) -> Target {
-    Target::from_lab("grey", Lab { lightness: 55.0, a: 3.0, b: -6.0 }, &request.conditions)
+fn target(limits: &RecipeLimits) -> Target {
+    Target::from_lab("grey", Lab { lightness: 55.0, a: 3.0, b: -6.0 }, &limits.conditions)
 }
 
 #[test]
 fn an_observed_search_finds_the_same_and_its_share_ends_at_one() {
     let library = oils();
     for at_most in 1..=4 {
-        let plain = MatchRequest::new(&library, conditions(&["D65"]), FilmKind::Hiding);
+        let plain = RecipeLimits::new(&library, conditions(&["D65"]), FilmKind::Hiding);
         let whole_parts = (at_most == 3).then_some(12);
-        let request = MatchRequest { at_most, whole_parts, ..plain };
-        let target = target(&request);
+        let limits = RecipeLimits { at_most, whole_parts, ..plain };
+        let target = target(&limits);
         let task = Task::default();
         assert_eq!(task.progress().share(), None);
-        let watched = recipes(&library, &target, &request, &task).unwrap();
-        assert_eq!(watched, recipes(&library, &target, &request, &Task::default()).unwrap());
+        let watched = recipes(&library, &target, &limits, &task).unwrap();
+        assert_eq!(watched, recipes(&library, &target, &limits, &Task::default()).unwrap());
         assert_eq!(task.progress().share(), Some(1.0), "up to {at_most} pigments");
     }
 }
@@ -207,29 +207,29 @@ fn an_observed_search_finds_the_same_and_its_share_ends_at_one() {
 #[test]
 fn with_required_pigments_the_share_ends_at_one_too() {
     let library = oils();
-    let mut request = MatchRequest::new(&library, conditions(&["D65"]), FilmKind::Hiding);
-    request.required =
+    let mut limits = RecipeLimits::new(&library, conditions(&["D65"]), FilmKind::Hiding);
+    limits.required =
         [0, 3].map(|id| RequiredPigment { pigment: PigmentId(id), share: None }).to_vec();
     let task = Task::default();
-    recipes(&library, &target(&request), &request, &task).unwrap();
+    recipes(&library, &target(&limits), &limits, &task).unwrap();
     assert_eq!(task.progress().share(), Some(1.0));
 }
 
 #[test]
 fn a_search_that_is_stopped_gives_nothing_and_ends_early() {
     let library = oils();
-    let mut request = MatchRequest::new(&library, conditions(&["D65", "A"]), FilmKind::Hiding);
-    request.at_most = 8;
-    let target = target(&request);
+    let mut limits = RecipeLimits::new(&library, conditions(&["D65", "A"]), FilmKind::Hiding);
+    limits.at_most = 8;
+    let target = target(&limits);
     let task = Task::default();
     task.cancel();
     let cancelled = Err(MatchError::Cancelled(Cancelled));
-    assert_eq!(recipes(&library, &target, &request, &task), cancelled);
+    assert_eq!(recipes(&library, &target, &limits, &task), cancelled);
     assert_eq!(task.progress().share(), Some(0.0), "nothing was tried");
     let running = Task::default();
     let share = || running.progress().share().unwrap_or(0.0);
     thread::scope(|scope| {
-        let search = scope.spawn(|| recipes(&library, &target, &request, &running));
+        let search = scope.spawn(|| recipes(&library, &target, &limits, &running));
         let patience = Instant::now() + Duration::from_secs(60);
         while share() == 0.0 && Instant::now() < patience {
             thread::sleep(Duration::from_micros(100));

@@ -18,9 +18,9 @@ use spectra::optics::absorption_over_scattering;
 use spectra::{Extrapolation, InterpolateError, Interpolation, Reflectance, Spectrum};
 
 use super::forward::{Forward, Scratch};
-use super::options::find_all;
+use super::limits::{FilmKind, MatchError, RecipeLimits, RequiredPigment};
 use super::recipe_search::spectrum_of;
-use super::request::{FilmKind, MatchError, MatchRequest, RequiredPigment};
+use super::request::find_all;
 use super::search::{Candidate, descend, search, within_limits};
 use super::target::{ColorTarget, Metric, Target, TargetColor, ViewingCondition};
 use crate::evaluate::{Remark, check_visible_band, lab};
@@ -209,11 +209,11 @@ impl PigmentLibrary {
             return Ok(found);
         }
         let additions = options.additions(self, &library, batch.grams)?;
-        let request = MatchRequest {
+        let limits = RecipeLimits {
             metric: options.metric,
-            ..MatchRequest::new(&library, conditions.clone(), FilmKind::Hiding)
+            ..RecipeLimits::new(&library, conditions.clone(), FilmKind::Hiding)
         };
-        let forward = Forward::new(&library, &request)?;
+        let forward = Forward::new(&library, &limits)?;
         let (best, reaches) = additions.find(&forward, &found.target);
         found.reaches = reaches;
         let corrected = best.into_iter().take(options.count);
@@ -430,9 +430,9 @@ impl Additions<'_> {
         PigmentId(self.library.pigments.len() - 1)
     }
 
-    /// A request for mixtures of the pot with additions, `share` of which is the pot.
-    fn request(&self, share: Option<f64>) -> MatchRequest {
-        let usual = MatchRequest::new(self.library, self.conditions.to_vec(), FilmKind::Hiding);
+    /// Limits of mixtures of the pot with additions, `share` of which is the pot.
+    fn limits(&self, share: Option<f64>) -> RecipeLimits {
+        let usual = RecipeLimits::new(self.library, self.conditions.to_vec(), FilmKind::Hiding);
         let pot = self.pot();
         let mut allowed = self.allowed.clone();
         allowed.push(pot);
@@ -450,7 +450,7 @@ impl Additions<'_> {
             })
             .collect();
         amounts.push(None);
-        MatchRequest {
+        RecipeLimits {
             allowed,
             required: vec![RequiredPigment { pigment: pot, share }],
             at_most: self.at_most + 1,
@@ -464,7 +464,7 @@ impl Additions<'_> {
     /// The additions of each set of pigments that come within the tolerance, the least first. If none does,
     /// you get those that come nearest, the nearest first.
     pub(super) fn find(&self, forward: &Forward<'_>, target: &Target) -> (Vec<Addition>, bool) {
-        let whole = self.request(None);
+        let whole = self.limits(None);
         let found = search(forward, &whole, target, &Task::default().steps(0));
         let mut sets: Vec<Candidate> = found.into_iter().filter(|c| c.pigments.len() > 1).collect();
         let near = sets.iter().filter(|set| set.distance <= self.tolerance).count();
@@ -555,7 +555,7 @@ impl Additions<'_> {
         scratch: &mut Scratch,
     ) -> Option<Candidate> {
         let share = 1.0 / (1.0 + added);
-        let request = self.request(Some(share));
+        let limits = self.limits(Some(share));
         let others = (set.len() - 1) as f64;
         let start = Candidate {
             pigments: set.to_vec(),
@@ -571,8 +571,8 @@ impl Additions<'_> {
             thickness: 1.0,
             distance: f64::INFINITY,
         };
-        let start = within_limits(&request, &start)?;
-        descend(forward, &request, target, &start, scratch)
+        let start = within_limits(&limits, &start)?;
+        descend(forward, &limits, target, &start, scratch)
     }
 
     /// The addition in a mixture, without traces below the least amount. `None` if nothing is left.
