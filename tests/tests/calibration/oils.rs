@@ -404,5 +404,5 @@ fn quadratures_plans_and_recipes_end_too() {
     let error = search.recipes_for(&target, &task).unwrap_err();
     assert_eq!(error, MatchError::Cancelled(Cancelled));
     let free = search.recipes_for(&target, &Task::default()).unwrap();
-    assert_eq!(free, oils.recipes_for(&target, &MatchRequest::default()).unwrap());
+    assert_eq!(free, MatchRequest::default().run(&oils, &target, &Task::default()).unwrap());
 }

@@ -201,7 +201,7 @@ fn the_real_pot_matches_after_the_correction() {
     let target = ColorTarget::measured("standard", standard.clone());
     let options = CorrectRequest::default();
     let library = oils();
-    let found = library.corrections_for(&target, &batch, &options).unwrap();
+    let found = options.run(&library, &target, &batch, &Task::default()).unwrap();
     assert!(found.reaches && before > 4.0, "{before}");
     let least = &found.corrections[0];
     let mut pot: Vec<(String, f64)> =
@@ -222,7 +222,7 @@ fn the_least_addition_comes_first_and_no_smaller_one_is_near() {
     let batch = batch(library, &weighed);
     let target = ColorTarget::measured("standard", standard.clone());
     let options = CorrectRequest { at_most: 1, count: 11, ..CorrectRequest::default() };
-    let found = library.corrections_for(&target, &batch, &options).unwrap();
+    let found = options.run(library, &target, &batch, &Task::default()).unwrap();
     assert!(found.corrections.is_sorted_by(|a, b| a.grams <= b.grams));
     let best = &found.corrections[0];
     let (id, grams) = best.additions[0];
@@ -247,21 +247,21 @@ fn stock_and_limits_hold() {
     let weighed = [("Zinc White", 80.0), ("Cobalt Blue", 9.0), ("Chrome Yellow", 5.0)];
     let batch = batch(library, &weighed);
     let free = CorrectRequest { only: vec!["Cobalt Blue".into()], ..Default::default() };
-    let needed = library.corrections_for(&target, &batch, &free).unwrap();
+    let needed = free.run(library, &target, &batch, &Task::default()).unwrap();
     assert!(needed.reaches);
     let needed = needed.corrections[0].grams;
     let short =
         CorrectRequest { stock: vec![("Cobalt Blue".into(), needed / 2.0)], ..free.clone() };
-    let found = library.corrections_for(&target, &batch, &short).unwrap();
+    let found = short.run(library, &target, &batch, &Task::default()).unwrap();
     assert!(!found.reaches && found.corrections[0].distance > 0.5);
     let (id, grams) = found.corrections[0].additions[0];
     assert!((grams - needed / 2.0).abs() < 0.01 * needed, "{grams} of {needed}");
     assert_eq!(found.corrections[0].out_of_stock, [id]);
     let little = CorrectRequest { most_grams: Some(needed / 4.0), ..free.clone() };
-    let found = library.corrections_for(&target, &batch, &little).unwrap();
+    let found = little.run(library, &target, &batch, &Task::default()).unwrap();
     assert!(!found.reaches && found.corrections[0].grams <= needed / 4.0 * (1.0 + 1e-9));
     let near = Batch { reflectance: measured(library, &RECIPE), ..batch.clone() };
-    let found = library.corrections_for(&target, &near, &free).unwrap();
+    let found = free.run(library, &target, &near, &Task::default()).unwrap();
     assert!(found.is_near && found.corrections.is_empty());
 }
 
@@ -271,7 +271,7 @@ fn batches_that_cannot_be_corrected_are_refused() {
     let target = ColorTarget::measured("standard", measured(library, &RECIPE));
     let batch = batch(library, &RECIPE);
     let refused = |batch: &Batch, options: &CorrectRequest| {
-        library.corrections_for(&target, batch, options).unwrap_err()
+        options.run(library, &target, batch, &Task::default()).unwrap_err()
     };
     let usual = CorrectRequest::default();
     let unknown = Batch { made: vec![("Cobalt Green".into(), 1.0)], ..batch.clone() };
@@ -283,7 +283,7 @@ fn batches_that_cannot_be_corrected_are_refused() {
     let none = CorrectRequest { at_most: 0, ..usual.clone() };
     assert!(matches!(refused(&batch, &none), MatchError::Number { .. }));
     let absolute = PigmentLibrary { amounts: AmountKind::Absolute, ..library.clone() };
-    let error = absolute.corrections_for(&target, &batch, &usual).unwrap_err();
+    let error = usual.run(&absolute, &target, &batch, &Task::default()).unwrap_err();
     assert_eq!(error, MatchError::AbsoluteBatch);
 }
 
@@ -300,15 +300,15 @@ fn a_batch_is_corrected_by_its_spectrum() {
         tolerance: 0.01,
         ..Default::default()
     };
-    let found = library.corrections_for(&target, &batch, &options).unwrap();
+    let found = options.run(library, &target, &batch, &Task::default()).unwrap();
     assert!(found.reaches && found.batch_rms_percent.unwrap() > 1.0, "{found:?}");
     let least = &found.corrections[0];
     assert!(least.rms_percent.unwrap() <= 0.01 + 1e-9, "{least:?}");
     // The pot of 500 g has 97 parts and lacks 3. Its S comes from what should have been weighed.
     assert!((least.grams - 500.0 * 3.0 / 97.0).abs() < 0.3, "{}", least.grams);
     let same = Batch { reflectance: standard, ..batch.clone() };
-    assert!(library.corrections_for(&target, &same, &options).unwrap().is_near);
+    assert!(options.run(library, &target, &same, &Task::default()).unwrap().is_near);
     let color = "#4a7d8c".parse().unwrap();
-    let refused = library.corrections_for(&color, &batch, &options).unwrap_err();
+    let refused = options.run(library, &color, &batch, &Task::default()).unwrap_err();
     assert!(matches!(refused, MatchError::NoSpectrum { .. }), "{refused}");
 }

@@ -55,7 +55,7 @@ fn a_mixture_is_found_again_from_its_own_spectrum() {
         for weights in [SpectrumWeights::Even, SpectrumWeights::Observer] {
             let target = measured(&library, recipe);
             let options = MatchRequest { tolerance: Some(0.0), ..by_spectrum(weights) };
-            let found = library.recipes_for(&target, &options).unwrap();
+            let found = options.run(&library, &target, &Task::default()).unwrap();
             let best = &found.recipes[0];
             let rms = best.rms_percent.unwrap();
             assert!(rms < 1e-3 && (rms - best.distance).abs() < 1e-9, "{recipe:?}: {best:?}");
@@ -84,7 +84,7 @@ fn a_film_is_found_again_with_its_thickness() {
         tolerance: Some(0.0),
         ..by_spectrum(SpectrumWeights::Even)
     };
-    let found = library.recipes_for(&target, &options).unwrap();
+    let found = options.run(&library, &target, &Task::default()).unwrap();
     let best = &found.recipes[0];
     assert!(best.distance < 1e-3, "{best:?}");
     assert!((best.thickness.unwrap() - 0.7).abs() < 1e-3, "{best:?}");
@@ -99,7 +99,7 @@ fn limits_of_recipes_hold_by_spectrum_too() {
     let of = |change: &dyn Fn(&mut MatchRequest)| {
         let mut options = by_spectrum(SpectrumWeights::Even);
         change(&mut options);
-        library.recipes_for(&target, &options).unwrap()
+        options.run(&library, &target, &Task::default()).unwrap()
     };
     let free = of(&|_| {});
     assert!(free.nearest() < 1e-3);
@@ -138,7 +138,7 @@ fn the_difference_is_the_root_mean_square_over_the_shared_band() {
         ..by_spectrum(SpectrumWeights::Even)
     };
     let target = ColorTarget::measured("part", target);
-    let found = library.recipes_for(&target, &options).unwrap();
+    let found = options.run(&library, &target, &Task::default()).unwrap();
     assert!((found.nearest() - 2.0).abs() < 1e-9, "{}", found.nearest());
     assert_eq!(found.target.spectrum.as_ref().unwrap().band_nm(), [450.0, 620.0]);
     assert!(found.remarks.iter().any(|r| r.text.contains("450 to 620 nm only")), "{found:?}");
@@ -149,7 +149,7 @@ fn a_colour_and_a_foreign_band_are_refused_with_a_way_out() {
     let library = oils();
     let options = by_spectrum(SpectrumWeights::Even);
     for text in ["#4a7d8c", "52,-10.5,8"] {
-        let refused = library.recipes_for(&text.parse().unwrap(), &options).unwrap_err();
+        let refused = options.run(&library, &text.parse().unwrap(), &Task::default()).unwrap_err();
         assert!(matches!(refused, MatchError::NoSpectrum { .. }), "{refused}");
         assert!(refused.hint().unwrap().to_string().contains("match by colour"), "{refused}");
     }
@@ -165,7 +165,8 @@ fn a_colour_and_a_foreign_band_are_refused_with_a_way_out() {
         pigment.scattering_sd.clear();
     }
     red.grid = Grid::from_nm(500.0, 10.0, 21).unwrap();
-    let refused = red.recipes_for(&ColorTarget::measured("blue", blue), &options).unwrap_err();
+    let refused =
+        options.run(&red, &ColorTarget::measured("blue", blue), &Task::default()).unwrap_err();
     let message = refused.to_string();
     assert!(message.contains("400 to 440 nm") && message.contains("500 to 700 nm"), "{message}");
 }
@@ -179,7 +180,7 @@ fn the_tolerance_is_in_percent_of_reflectance() {
     let target = measured(&library, &[("Zinc White", 0.5), ("Minium", 0.3), ("Viridian", 0.2)]);
     let plain = |tolerance: f64| {
         let options = MatchRequest { tolerance: Some(tolerance), ..options.clone() };
-        library.recipes_for(&target, &options).unwrap().recipes[0].shares.len()
+        options.run(&library, &target, &Task::default()).unwrap().recipes[0].shares.len()
     };
     assert!(plain(0.0) == 3 && plain(20.0) == 1, "{} {}", plain(0.0), plain(20.0));
 }

@@ -92,14 +92,20 @@ impl PigmentLibrary {
         let tolerance_origin = options.tolerance_for(self).1;
         Ok(RecipeSearch { library: self, limits, tolerance_origin, remarks })
     }
+}
 
-    /// Searches recipes for a colour or a measured spectrum.
+impl MatchRequest {
+    /// Searches recipes of a library for a colour or a measured spectrum. `task` counts the sets of pigments
+    /// that we tried in the first of the searches that a target may take. If you have several targets, prepare
+    /// the search once with [`PigmentLibrary::recipe_search`].
     ///
     /// ```
+    /// use documents::Task;
     /// use pigment::{MatchRequest, PigmentLibrary};
     ///
     /// let oils = PigmentLibrary::van_gogh_oils();
-    /// let found = oils.recipes_for(&"#4a7d8c".parse()?, &MatchRequest::default())?;
+    /// let request = MatchRequest::default();
+    /// let found = request.run(&oils, &"#4a7d8c".parse()?, &Task::default())?;
     /// let best = &found.recipes[0];
     /// for &(pigment, share) in &best.shares {
     ///     println!("{:5.1} % {}", 100.0 * share, oils[pigment].name);
@@ -110,13 +116,15 @@ impl PigmentLibrary {
     /// ```
     ///
     /// # Errors
-    /// [`MatchError`] if a name is unknown, options exclude each other, or no recipe fits them.
-    pub fn recipes_for(
+    /// [`MatchError`] if a name is unknown, options exclude each other, no recipe fits them, or `task` was
+    /// cancelled.
+    pub fn run(
         &self,
+        library: &PigmentLibrary,
         target: &ColorTarget,
-        options: &MatchRequest,
+        task: &Task,
     ) -> Result<RecipeMatches, MatchError> {
-        self.recipe_search(options)?.recipes_for(target, &Task::default())
+        library.recipe_search(self)?.recipes_for(target, task)
     }
 }
 
@@ -341,9 +349,9 @@ fn displayed(lab: Lab) -> Rgb {
 mod tests {
     use super::*;
 
-    fn search(target: &str, options: MatchRequest) -> RecipeMatches {
+    fn search(target: &str, request: MatchRequest) -> RecipeMatches {
         let oils = PigmentLibrary::van_gogh_oils();
-        oils.recipes_for(&target.parse().unwrap(), &options).unwrap()
+        request.run(&oils, &target.parse().unwrap(), &Task::default()).unwrap()
     }
 
     #[test]

@@ -78,14 +78,14 @@ impl ToleranceOrigin {
     }
 }
 
-/// Options of [`PigmentLibrary::recipes_for`], which every program fills in its own way. Comments of the fields
-/// are the help texts of the command line and the descriptions of the schema.
+/// Options of a search for recipes, which every program fills in its own way. [`Self::run`] searches. Comments of
+/// the fields are the help texts of the command line and the descriptions of the schema.
 ///
 /// ```
 /// use pigment::MatchRequest;
 ///
-/// let options = MatchRequest { at_most: 3, whole_parts: Some(12), ..MatchRequest::default() };
-/// assert_eq!(options.count, 5);
+/// let request = MatchRequest { at_most: 3, whole_parts: Some(12), ..MatchRequest::default() };
+/// assert_eq!(request.count, 5);
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
