@@ -1,20 +1,19 @@
 //! Charts and one-page reports of a pigment library.
 //!
 //! ```text
-//! PigmentLibrary, Viewing --+
-//! Comparison, Validation ---+--> Subject --> Report::draw --> report.html
-//! (only with measurements)  |                                 figures/*.svg, *.png, *.csv
-//! QuadratureTrial ----------+
+//! PigmentLibrary --+
+//! Readings --------+--> ReportRequest::run --> Subject --> Report::draw --> report.html
+//! (if you have any)                                                         figures/*.svg, *.png, *.csv
 //! ```
 //!
 //! ```no_run
 //! use calibrate::library::PigmentLibrary;
 //! use documents::Task;
-//! use reports::{Report, Subject};
+//! use reports::{Report, ReportRequest};
 //!
 //! let library = PigmentLibrary::van_gogh_oils();
-//! let viewing = spectra::Viewing::default();
-//! let subject = Subject::of_library(&library, &viewing, "my program")?;
+//! let request = ReportRequest::default();
+//! let subject = request.run(&library, None, "my program", &Task::default())?;
 //! let report = Report::draw(&subject, &Task::default())?;
 //! for (path, content) in report.files() {
 //!     documents::file::write_whole(std::path::Path::new(&path), &content)?;
@@ -64,6 +63,7 @@ mod chart;
 pub mod picture;
 pub mod figure;
 pub mod subject;
+mod request;
 mod fit;
 mod light;
 mod palette;
@@ -74,4 +74,5 @@ pub use picture::PictureError;
 #[cfg(feature = "pictures")]
 pub use report::Report;
 pub use report::{Head, STEPS, Warning, absences, page_alone};
+pub use request::{PreparedReport, ReportError, ReportRequest};
 pub use subject::Subject;

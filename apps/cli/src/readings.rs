@@ -24,9 +24,7 @@ use crate::request_options::{CommandLine, RequestOptions};
 use spectra::color::{Adaptation, Rgb, RgbSpace, Xyz};
 use spectra::instrument::split_file_and_name;
 use spectra::referencing::{DarkFiles, ReferenceFiles, TileSource};
-use spectra::{
-    Grid, Observer, Reflectance, Spectrum, TristimulusWeights, ViewingNames, light_from_text,
-};
+use spectra::{Grid, Observer, Reflectance, Spectrum, ViewingNames, light_from_text};
 
 /// Options for how measurement files are read.
 #[derive(Debug, Clone, Default, Args)]
@@ -169,17 +167,6 @@ pub(crate) fn condition(text: &str, observer: &str) -> Result<ViewingCondition> 
 /// Converts a colour to encoded sRGB, adapted from `white` by Bradford's transform.
 pub(crate) fn srgb(xyz: Xyz, white: Xyz) -> Rgb {
     RgbSpace::Srgb.encoded_from_xyz(xyz, white, Adaptation::Bradford)
-}
-
-/// Computes the weights that turn spectra on `grid` into XYZ. Warns if `grid` covers only a part
-/// of the visible band.
-pub(crate) fn color_weights(
-    viewing: &Viewing,
-    grid: Grid,
-    console: &mut Console<'_>,
-) -> Result<TristimulusWeights> {
-    remark_coverage(grid, console)?;
-    Ok(viewing.weights(grid)?)
 }
 
 /// Warns if `grid` covers only a part of the visible band. Without any visible wavelength this

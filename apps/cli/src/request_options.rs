@@ -107,7 +107,7 @@ pub(crate) fn without_value(option: Arg, left_out: &str) -> Arg {
 }
 
 /// The error of a request in the words of the command line.
-fn refusal<T: CommandLine>(error: RequestError) -> Failure {
+pub(crate) fn refusal<T: CommandLine>(error: RequestError) -> Failure {
     let keys = keys::<T>();
     Failure::of_request(&error, |name| {
         let key = keys.iter().find(|key| key.name == name);

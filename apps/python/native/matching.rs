@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use calibrate::Viewing;
 use calibrate::library::PigmentLibrary;
-use calibrate::matching::{ColorTarget, MatchOptions, ViewingCondition};
+use calibrate::matching::{ColorTarget, MatchRequest, ViewingCondition};
 use documents::hint::Fault;
 use documents::request::request_from_json;
 use numpy::PyReadonlyArray1;
@@ -57,14 +57,14 @@ pub(crate) fn recipes_for(
     over: Option<Ground<'_>>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Vec<(String, Vec<RemarkTuple>)>> {
-    let options: MatchOptions = request_from_json(request).raised(py, Exception::Recipe)?;
+    let options: MatchRequest = request_from_json(request).raised(py, Exception::Recipe)?;
     // Lights and ground may be spectra, which have no names that JSON could hold.
     let observer = Observer::named(observer).raised(py, Exception::Other)?;
     let condition = |(light, weight): &(PyRef<'_, Light>, f64)| ViewingCondition {
         viewing: Viewing { illuminant: light.0.clone(), observer },
         weight: *weight,
     };
-    let options = MatchOptions {
+    let options = MatchRequest {
         conditions: lights.iter().map(condition).collect(),
         over: over.as_ref().map(|ground| ground.backing(py)).transpose()?,
         ..options

@@ -5,7 +5,7 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 use documents::Task;
 use pigment::library::PigmentLibrary;
-use pigment::matching::{MatchError, MatchRequest, RecipeMatch, Target, recipes};
+use pigment::matching::{MatchError, RecipeLimits, RecipeMatch, Target, recipes};
 use session::thread;
 
 /// A target colour, and the pigments and limits of the search.
@@ -16,7 +16,7 @@ pub struct SearchRequest {
     /// Colour that the recipes should match.
     pub target: Target,
     /// Allowed pigments, film, and number of recipes.
-    pub limits: MatchRequest,
+    pub limits: RecipeLimits,
 }
 
 /// A finished search.
@@ -126,7 +126,7 @@ mod tests {
         let conditions = vec![ViewingCondition { viewing: Viewing::default(), weight: 1.0 }];
         let target = Target::from_lab("wanted", Lab { lightness, a: 4.0, b: 9.0 }, &conditions);
         let limits =
-            MatchRequest { at_most, ..MatchRequest::new(&library, conditions, FilmKind::Hiding) };
+            RecipeLimits { at_most, ..RecipeLimits::new(&library, conditions, FilmKind::Hiding) };
         SearchRequest { library, target, limits }
     }
 

@@ -7,7 +7,7 @@ use divan::{Bencher, black_box};
 use documents::Task;
 use pigment::evaluate::Viewing;
 use pigment::library::PigmentLibrary;
-use pigment::matching::{FilmKind, MatchRequest, Target, Thickness, ViewingCondition, recipes};
+use pigment::matching::{FilmKind, RecipeLimits, Target, Thickness, ViewingCondition, recipes};
 use spectra::color::Lab;
 use spectra::{Illuminant, Observer};
 
@@ -20,7 +20,7 @@ fn oils() -> PigmentLibrary {
 }
 
 /// Request for recipes of up to four of all 20 pigments, under the lights named in `lights`.
-fn request(library: &PigmentLibrary, lights: &[&str], film: FilmKind) -> MatchRequest {
+fn limits(library: &PigmentLibrary, lights: &[&str], film: FilmKind) -> RecipeLimits {
     let conditions = lights.iter().map(|name| {
         let illuminant = Illuminant::named(name).expect("a CIE light");
         ViewingCondition {
@@ -29,17 +29,17 @@ fn request(library: &PigmentLibrary, lights: &[&str], film: FilmKind) -> MatchRe
         }
     });
     let allowed = library.ids().collect();
-    MatchRequest { allowed, ..MatchRequest::new(library, conditions.collect(), film) }
+    RecipeLimits { allowed, ..RecipeLimits::new(library, conditions.collect(), film) }
 }
 
-fn search(bencher: Bencher<'_, '_>, lights: &[&str], change: impl Fn(&mut MatchRequest)) {
+fn search(bencher: Bencher<'_, '_>, lights: &[&str], change: impl Fn(&mut RecipeLimits)) {
     let library = oils();
-    let mut request = request(&library, lights, FilmKind::Hiding);
-    change(&mut request);
+    let mut limits = limits(&library, lights, FilmKind::Hiding);
+    change(&mut limits);
     let wanted = Lab { lightness: 49.5, a: -12.9, b: -13.5 };
-    let target = Target::from_lab("", wanted, &request.conditions);
+    let target = Target::from_lab("", wanted, &limits.conditions);
     bencher.bench(|| {
-        recipes(black_box(&library), &target, &request, &Task::default()).expect("recipes")
+        recipes(black_box(&library), &target, &limits, &Task::default()).expect("recipes")
     });
 }
 
@@ -55,14 +55,14 @@ fn hiding_three_lights(bencher: Bencher<'_, '_>) {
 
 #[divan::bench(sample_count = 10)]
 fn twelve_whole_parts(bencher: Bencher<'_, '_>) {
-    search(bencher, &["D65"], |request| request.whole_parts = Some(12));
+    search(bencher, &["D65"], |limits| limits.whole_parts = Some(12));
 }
 
 #[divan::bench(sample_count = 10)]
 fn glaze_of_any_thickness(bencher: Bencher<'_, '_>) {
-    search(bencher, &["D65"], |request| {
+    search(bencher, &["D65"], |limits| {
         let ground = vec![0.85; 31];
         let thickness = Thickness::Between(0.1, 10.0);
-        request.film = FilmKind::Over { ground, thickness };
+        limits.film = FilmKind::Over { ground, thickness };
     });
 }

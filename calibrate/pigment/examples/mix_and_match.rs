@@ -4,7 +4,8 @@
 use std::error::Error;
 use std::io::Write;
 
-use pigment::{MatchOptions, PigmentLibrary, Viewing};
+use documents::Task;
+use pigment::{MatchRequest, PigmentLibrary, Viewing};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let oils = PigmentLibrary::van_gogh_oils();
@@ -15,7 +16,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     writeln!(out, "9 Zinc White + 1 Cobalt Blue: {}, Lab {l:.1} {a:.1} {b:.1}", sky.hex())?;
 
     let target = std::env::args().nth(1).unwrap_or_else(|| "#4a7d8c".to_owned());
-    let found = oils.recipes_for(&target.parse()?, &MatchOptions::default())?;
+    let found = MatchRequest::default().run(&oils, &target.parse()?, &Task::default())?;
     for recipe in found.recipes.iter().chain(&found.by_cie1976) {
         writeln!(out, "{target} within {:.2} CIEDE2000:", recipe.delta_e[0])?;
         for &(pigment, share) in &recipe.shares {

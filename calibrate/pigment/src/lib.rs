@@ -2,7 +2,7 @@
 //!
 //! A [`PigmentLibrary`] holds the Kubelka-Munk K and S of calibrated paints. You get the colour of any
 //! mixture from it ([`PigmentLibrary::color`]), and recipes for any colour
-//! ([`PigmentLibrary::recipes_for`]).
+//! ([`MatchRequest::run`]).
 //!
 //! ```text
 //! library (JSON) -> recipe -> K and S of the mixture -> film -> reflectance -> colour
@@ -11,14 +11,15 @@
 //! ```
 //!
 //! ```
-//! use pigment::{MatchOptions, PigmentLibrary, Viewing};
+//! use documents::Task;
+//! use pigment::{MatchRequest, PigmentLibrary, Viewing};
 //!
 //! let oils = PigmentLibrary::van_gogh_oils();
 //! let color = oils.color([("Zinc White", 9.0), ("Cobalt Blue", 1.0)], &Viewing::default())?;
 //! println!("{} L* {:.1}", color.hex(), color.lab.lightness);
 //!
-//! let options = MatchOptions { at_most: 3, ..MatchOptions::default() };
-//! let found = oils.recipes_for(&"#4a7d8c".parse()?, &options)?;
+//! let request = MatchRequest { at_most: 3, ..MatchRequest::default() };
+//! let found = request.run(&oils, &"#4a7d8c".parse()?, &Task::default())?;
 //! println!("nearest: {:.2} CIEDE2000", found.nearest());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -42,7 +43,7 @@ pub use color::{
 pub use evaluate::{Remark, RemarkKind, Viewing};
 pub use library::{LibraryError, Pigment, PigmentLibrary, RecipeError};
 pub use matching::{
-    ColorTarget, MatchError, MatchOptions, PriceList, RecipeMatch, RecipeMatches, ViewingCondition,
+    ColorTarget, MatchError, MatchRequest, PriceList, RecipeMatch, RecipeMatches, ViewingCondition,
 };
 pub use recipe::{Curves, PigmentId, Recipe};
 

@@ -10,7 +10,7 @@ use calibrate::calibration::CalibrationError;
 use calibrate::evaluate::Viewing;
 use calibrate::fit::{FitError, FitSettings, Method, Smoothness};
 use calibrate::library::{AmountKind, PigmentLibrary};
-use calibrate::matching::{MatchError, MatchOptions};
+use calibrate::matching::{MatchError, MatchRequest};
 use calibrate::measurement::MeasurementError;
 use calibrate::observation::{BelowSurface, Hiding, observations};
 use calibrate::plan::{PlanError, PlanRequest};
@@ -399,10 +399,10 @@ fn quadratures_plans_and_recipes_end_too() {
     let error = calibrate::plan(&["Cobalt Blue", "Viridian"], "Zinc White", &options, &task);
     let error = error.unwrap_err();
     assert!(matches!(error, PlanError::Cancelled(_)) && error.hint().is_some(), "{error:?}");
-    let search = oils.recipe_search(&MatchOptions::default()).unwrap();
+    let search = oils.recipe_search(&MatchRequest::default()).unwrap();
     let target = "#4a7d8c".parse().unwrap();
     let error = search.recipes_for(&target, &task).unwrap_err();
     assert_eq!(error, MatchError::Cancelled(Cancelled));
     let free = search.recipes_for(&target, &Task::default()).unwrap();
-    assert_eq!(free, oils.recipes_for(&target, &MatchOptions::default()).unwrap());
+    assert_eq!(free, MatchRequest::default().run(&oils, &target, &Task::default()).unwrap());
 }

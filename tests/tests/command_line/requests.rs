@@ -1,9 +1,10 @@
 //! Requests: the schema of all of them is docs/schema/requests.json, and their keys are options.
 
-use calibrate::matching::{CorrectRequest, MatchOptions};
+use calibrate::matching::{CorrectRequest, MatchRequest};
 use calibrate::plan::PlanRequest;
 use calibrate::quadrature::QuadratureRequest;
 use calibrate::{FitRequest, ValidationRequest};
+use reports::ReportRequest;
 use schemars::SchemaGenerator;
 use schemars::generate::SchemaSettings;
 use serde_json::{Value, json};
@@ -17,9 +18,10 @@ fn schema() -> Value {
     generator.subschema_for::<FitRequest>();
     generator.subschema_for::<ValidationRequest>();
     generator.subschema_for::<PlanRequest>();
-    generator.subschema_for::<MatchOptions>();
+    generator.subschema_for::<MatchRequest>();
     generator.subschema_for::<CorrectRequest>();
     generator.subschema_for::<QuadratureRequest>();
+    generator.subschema_for::<ReportRequest>();
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Requests of impasto",

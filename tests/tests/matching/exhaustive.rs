@@ -5,7 +5,7 @@
 use calibrate::evaluate::lab;
 use calibrate::library::PigmentLibrary;
 use calibrate::matching::{
-    FilmKind, MatchError, MatchRequest, RecipeMatch, RequiredPigment, Target, recipes,
+    FilmKind, MatchError, RecipeLimits, RecipeMatch, RequiredPigment, Target, recipes,
 };
 use calibrate::{PigmentId, Recipe};
 use documents::Task;
@@ -86,16 +86,16 @@ fn targets(library: &PigmentLibrary, pigments: &[PigmentId], count: usize) -> Ve
 fn recipes_are_at_least_as_near_as_an_exhaustive_search_on_200_targets() {
     let library = oils();
     let conditions = conditions(&["D65"]);
-    let mut request = MatchRequest::new(&library, conditions.clone(), FilmKind::Hiding);
-    request.allowed.truncate(PIGMENTS);
-    request.least_share = 1.0 / STEPS as f64;
-    request.tolerance = 0.0;
-    request.count = 1;
-    let every = colors(&library, &request.allowed);
+    let mut limits = RecipeLimits::new(&library, conditions.clone(), FilmKind::Hiding);
+    limits.allowed.truncate(PIGMENTS);
+    limits.least_share = 1.0 / STEPS as f64;
+    limits.tolerance = 0.0;
+    limits.count = 1;
+    let every = colors(&library, &limits.allowed);
     let mut reached = 0;
-    for (number, wanted) in targets(&library, &request.allowed, 200).into_iter().enumerate() {
+    for (number, wanted) in targets(&library, &limits.allowed, 200).into_iter().enumerate() {
         let target = Target::from_lab("", wanted, &conditions);
-        let found = recipes(&library, &target, &request, &Task::default()).unwrap()[0].distance;
+        let found = recipes(&library, &target, &limits, &Task::default()).unwrap()[0].distance;
         // Only a colour nearer than the one found matters. CIEDE2000 is at least a twelfth of CIE 1976 at these
         // chromas, and at least the difference of lightness by its greatest weight, 1.748: farther ones are skipped.
         let nearest = every.iter().fold(found, |least, &color| {
@@ -114,12 +114,12 @@ fn whole_parts_are_as_near_as_every_whole_recipe() {
     let library = oils();
     let conditions = conditions(&["D65"]);
     let weights = conditions[0].viewing.weights(library.grid).unwrap();
-    let mut request = MatchRequest::new(&library, conditions.clone(), FilmKind::Hiding);
-    request.allowed = [1, 4, 7, 11, 12].map(PigmentId).to_vec();
-    request.whole_parts = Some(9);
-    request.tolerance = 0.0;
+    let mut limits = RecipeLimits::new(&library, conditions.clone(), FilmKind::Hiding);
+    limits.allowed = [1, 4, 7, 11, 12].map(PigmentId).to_vec();
+    limits.whole_parts = Some(9);
+    limits.tolerance = 0.0;
     let mut every = Vec::new();
-    for set in sets(&request.allowed) {
+    for set in sets(&limits.allowed) {
         for total in set.len()..=9 {
             for parts in shares(set.len(), total) {
                 let recipe: Recipe =
@@ -129,11 +129,11 @@ fn whole_parts_are_as_near_as_every_whole_recipe() {
             }
         }
     }
-    for wanted in targets(&library, &request.allowed, 60) {
+    for wanted in targets(&library, &limits.allowed, 60) {
         let found = recipes(
             &library,
             &Target::from_lab("", wanted, &conditions),
-            &request,
+            &limits,
             &Task::default(),
         )
         .unwrap();
@@ -168,9 +168,9 @@ fn a_mixture_is_found_again_from_its_color_under_three_lights() {
         let recipe: Recipe = pigments.into_iter().zip([0.6, 0.3, 0.1]).collect();
         let mixed = library.mix(&recipe).unwrap().hiding(library.saunderson);
         let target = target_of(&library, &mixed, &conditions);
-        let mut request = MatchRequest::new(&library, conditions.clone(), FilmKind::Hiding);
-        request.tolerance = 1e-3;
-        let found = &recipes(&library, &target, &request, &Task::default()).unwrap()[0];
+        let mut limits = RecipeLimits::new(&library, conditions.clone(), FilmKind::Hiding);
+        limits.tolerance = 1e-3;
+        let found = &recipes(&library, &target, &limits, &Task::default()).unwrap()[0];
         let mut wanted = pigments.to_vec();
         wanted.sort_unstable();
         assert_eq!(sorted(found), wanted, "{names:?}");
@@ -197,9 +197,9 @@ fn lights_that_count_rank_metameric_recipes_lower() {
             .iter_mut()
             .zip(weights)
             .for_each(|(condition, weight)| condition.weight = weight);
-        let mut request = MatchRequest::new(&library, conditions, FilmKind::Hiding);
-        request.allowed.retain(|&pigment| pigment != blue);
-        let best = recipes(&library, &target, &request, &Task::default()).unwrap().remove(0);
+        let mut limits = RecipeLimits::new(&library, conditions, FilmKind::Hiding);
+        limits.allowed.retain(|&pigment| pigment != blue);
+        let best = recipes(&library, &target, &limits, &Task::default()).unwrap().remove(0);
         let squares: f64 = best.delta_e.iter().map(|difference| difference * difference).sum();
         (best.delta_e[0], (squares / 3.0).sqrt())
     });
@@ -212,11 +212,11 @@ fn equally_near_recipes_come_with_few_pigments_first_and_cheapest_first_if_price
     let library = oils();
     let conditions = conditions(&["D65"]);
     let target = Target::from_lab("", Lab { lightness: 60.0, a: 5.0, b: 20.0 }, &conditions);
-    let mut request = MatchRequest::new(&library, conditions, FilmKind::Hiding);
-    (request.tolerance, request.count) = (0.5, 10);
+    let mut limits = RecipeLimits::new(&library, conditions, FilmKind::Hiding);
+    (limits.tolerance, limits.count) = (0.5, 10);
     let nearest =
         |found: &[RecipeMatch]| found.iter().map(|r| r.distance).fold(f64::INFINITY, f64::min);
-    let found = recipes(&library, &target, &request, &Task::default()).unwrap();
+    let found = recipes(&library, &target, &limits, &Task::default()).unwrap();
     let equal = |found: &[RecipeMatch]| -> Vec<RecipeMatch> {
         let most = nearest(found) + 0.5;
         found.iter().filter(|recipe| recipe.distance <= most).cloned().collect()
@@ -232,8 +232,8 @@ fn equally_near_recipes_come_with_few_pigments_first_and_cheapest_first_if_price
         "{equals:?}"
     );
 
-    request.costs = (0..library.pigments.len()).map(|index| (index * 7 % 11) as f64).collect();
-    let priced = recipes(&library, &target, &request, &Task::default()).unwrap();
+    limits.costs = (0..library.pigments.len()).map(|index| (index * 7 % 11) as f64).collect();
+    let priced = recipes(&library, &target, &limits, &Task::default()).unwrap();
     let costs: Vec<f64> = equal(&priced).iter().map(|recipe| recipe.cost.unwrap()).collect();
     assert!(costs.len() > 1 && costs.is_sorted(), "{costs:?}");
     assert!(found.iter().all(|recipe| recipe.cost.is_none()));
@@ -244,12 +244,12 @@ fn a_pigment_that_brings_nothing_is_not_shown() {
     let library = oils();
     let conditions = conditions(&["D65"]);
     let target = Target::from_lab("", Lab { lightness: 60.0, a: 5.0, b: 20.0 }, &conditions);
-    let mut request = MatchRequest::new(&library, conditions, FilmKind::Hiding);
+    let mut limits = RecipeLimits::new(&library, conditions, FilmKind::Hiding);
     let names = ["Zinc White", "Minium", "Chrome Yellow", "Cobalt Blue", "Viridian", "Bone Black"];
-    request.allowed = names.map(|name| library.find(name).unwrap()).to_vec();
+    limits.allowed = names.map(|name| library.find(name).unwrap()).to_vec();
     // This is more than the 56 sets of one to four of six pigments.
-    request.count = 100;
-    let found = recipes(&library, &target, &request, &Task::default()).unwrap();
+    limits.count = 100;
+    let found = recipes(&library, &target, &limits, &Task::default()).unwrap();
     assert!((2..56).contains(&found.len()), "{} recipes", found.len());
     for (place, recipe) in found.iter().enumerate() {
         assert!(recipe.shares.parts().is_sorted_by(|a, b| a.1 >= b.1), "{recipe:?}");
@@ -265,9 +265,9 @@ fn the_same_request_gives_the_same_recipes() {
     let library = oils();
     let conditions = conditions(&["D65", "FL11"]);
     let target = Target::from_lab("", Lab { lightness: 35.0, a: -20.0, b: -5.0 }, &conditions);
-    let request = MatchRequest::new(&library, conditions, FilmKind::Hiding);
-    let first = recipes(&library, &target, &request, &Task::default()).unwrap();
-    assert_eq!(first, recipes(&library, &target, &request, &Task::default()).unwrap());
+    let limits = RecipeLimits::new(&library, conditions, FilmKind::Hiding);
+    let first = recipes(&library, &target, &limits, &Task::default()).unwrap();
+    assert_eq!(first, recipes(&library, &target, &limits, &Task::default()).unwrap());
 }
 
 fn required_pigment(&(pigment, share): &(PigmentId, Option<f64>)) -> RequiredPigment {
@@ -299,20 +299,20 @@ fn every_recipe_keeps_every_limit() {
     let viridian = library.find("Viridian").unwrap();
     for required in [vec![], vec![(white, None)], vec![(white, Some(0.4)), (black, None)]] {
         for (at_most, least) in [(2, 0.02), (3, 0.1), (4, 0.2)] {
-            let mut request = MatchRequest::new(&library, conditions.clone(), FilmKind::Hiding);
-            request.allowed.retain(|&pigment| pigment != viridian && pigment.index() < 16);
-            request.required = required.iter().map(required_pigment).collect();
-            (request.at_most, request.least_share, request.count) = (at_most, least, 20);
+            let mut limits = RecipeLimits::new(&library, conditions.clone(), FilmKind::Hiding);
+            limits.allowed.retain(|&pigment| pigment != viridian && pigment.index() < 16);
+            limits.required = required.iter().map(required_pigment).collect();
+            (limits.at_most, limits.least_share, limits.count) = (at_most, least, 20);
             for wanted in colors_within_limits() {
                 let target = Target::from_lab("", wanted, &conditions);
-                let found = recipes(&library, &target, &request, &Task::default()).unwrap();
+                let found = recipes(&library, &target, &limits, &Task::default()).unwrap();
                 assert!(!found.is_empty(), "no recipe for {wanted:?}");
                 for recipe in found {
                     let sum: f64 = recipe.shares.iter().map(|(_, share)| share).sum();
                     assert!((sum - 1.0).abs() < 1e-9, "{sum}");
                     assert!(recipe.shares.len() <= at_most, "{recipe:?}");
                     for &(pigment, share) in &recipe.shares {
-                        assert!(request.allowed.contains(&pigment), "{pigment:?} was not allowed");
+                        assert!(limits.allowed.contains(&pigment), "{pigment:?} was not allowed");
                         assert!(share >= least - 1e-9, "{share} of {pigment:?}");
                     }
                     for (pigment, given) in &required {
@@ -333,10 +333,10 @@ fn a_wider_choice_is_never_farther() {
         let target = Target::from_lab("", wanted, &conditions);
         let mut before = f64::INFINITY;
         for at_most in 1..=4 {
-            let mut request = MatchRequest::new(&library, conditions.clone(), FilmKind::Hiding);
-            (request.at_most, request.tolerance) = (at_most, 0.0);
+            let mut limits = RecipeLimits::new(&library, conditions.clone(), FilmKind::Hiding);
+            (limits.at_most, limits.tolerance) = (at_most, 0.0);
             let nearest =
-                recipes(&library, &target, &request, &Task::default()).unwrap()[0].distance;
+                recipes(&library, &target, &limits, &Task::default()).unwrap()[0].distance;
             assert!(nearest <= before + 1e-9, "{at_most} pigments: {nearest} after {before}");
             before = nearest;
         }
@@ -346,10 +346,10 @@ fn a_wider_choice_is_never_farther() {
 #[test]
 fn an_unidentified_pigment_takes_no_part_unless_it_is_asked_for() {
     let library = oils();
-    let request = MatchRequest::new(&library, conditions(&["D65"]), FilmKind::Hiding);
+    let limits = RecipeLimits::new(&library, conditions(&["D65"]), FilmKind::Hiding);
     let unknown: Vec<PigmentId> = library.ids().filter(|&id| !library[id].identified).collect();
     assert_eq!(unknown.len(), 2);
-    assert!(unknown.iter().all(|index| !request.allowed.contains(index)));
+    assert!(unknown.iter().all(|index| !limits.allowed.contains(index)));
 }
 
 #[test]
@@ -357,15 +357,15 @@ fn what_no_recipe_can_meet_is_refused() {
     let library = oils();
     let conditions = conditions(&["D65"]);
     let wanted = Target::from_lab("", Lab { lightness: 50.0, a: 0.0, b: 0.0 }, &conditions);
-    let good = MatchRequest::new(&library, conditions.clone(), FilmKind::Hiding);
-    let refusal = |change: &dyn Fn(&mut MatchRequest)| {
-        let mut request = good.clone();
-        change(&mut request);
-        recipes(&library, &wanted, &request, &Task::default()).unwrap_err()
+    let good = RecipeLimits::new(&library, conditions.clone(), FilmKind::Hiding);
+    let refusal = |change: &dyn Fn(&mut RecipeLimits)| {
+        let mut limits = good.clone();
+        change(&mut limits);
+        recipes(&library, &wanted, &limits, &Task::default()).unwrap_err()
     };
     assert_eq!(refusal(&|r| r.allowed.clear()), MatchError::NoPigments);
     assert_eq!(refusal(&|r| r.conditions.clear()), MatchError::NoLight);
-    let numbers: [&dyn Fn(&mut MatchRequest); 7] = [
+    let numbers: [&dyn Fn(&mut RecipeLimits); 7] = [
         &|r| r.at_most = 0,
         &|r| r.at_most = 9,
         &|r| r.least_share = f64::NAN,
@@ -395,9 +395,9 @@ fn a_least_share_that_leaves_no_room_gives_no_recipe_of_that_size() {
     let library = oils();
     let conditions = conditions(&["D65"]);
     let wanted = Target::from_lab("", Lab { lightness: 50.0, a: 0.0, b: 0.0 }, &conditions);
-    let mut request = MatchRequest::new(&library, conditions, FilmKind::Hiding);
-    request.least_share = 0.4;
-    let found = recipes(&library, &wanted, &request, &Task::default()).unwrap();
+    let mut limits = RecipeLimits::new(&library, conditions, FilmKind::Hiding);
+    limits.least_share = 0.4;
+    let found = recipes(&library, &wanted, &limits, &Task::default()).unwrap();
     assert!(found.iter().all(|recipe| recipe.shares.len() <= 2), "{found:?}");
 }
 
@@ -405,11 +405,11 @@ fn a_least_share_that_leaves_no_room_gives_no_recipe_of_that_size() {
 fn whole_parts_keep_the_least_share() {
     let library = oils();
     let conditions = conditions(&["D65"]);
-    let mut request = MatchRequest::new(&library, conditions.clone(), FilmKind::Hiding);
-    (request.least_share, request.whole_parts) = (0.2, Some(12));
+    let mut limits = RecipeLimits::new(&library, conditions.clone(), FilmKind::Hiding);
+    (limits.least_share, limits.whole_parts) = (0.2, Some(12));
     for wanted in colors_within_limits() {
         let target = Target::from_lab("", wanted, &conditions);
-        for recipe in recipes(&library, &target, &request, &Task::default()).unwrap() {
+        for recipe in recipes(&library, &target, &limits, &Task::default()).unwrap() {
             assert!(recipe.shares.iter().all(|(_, share)| *share >= 0.2 - 1e-9), "{recipe:?}");
         }
     }

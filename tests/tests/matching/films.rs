@@ -4,7 +4,7 @@
 use calibrate::evaluate::lab;
 use calibrate::library::{AmountKind, PigmentLibrary};
 use calibrate::matching::{
-    Batch, ColorTarget, CorrectRequest, FilmKind, MatchError, MatchRequest, Metric, RecipeMatch,
+    Batch, ColorTarget, CorrectRequest, FilmKind, MatchError, Metric, RecipeLimits, RecipeMatch,
     SpectrumWeights, Thickness, recipes,
 };
 use calibrate::{Recipe, Viewing};
@@ -25,15 +25,15 @@ fn a_glaze_over_a_ground_is_found_with_its_thickness() {
     let film = library.mix(recipe).unwrap().film(0.6, &ground, library.film());
     let target = target_of(&library, &film, &conditions);
     let kind = FilmKind::Over { ground: ground.clone(), thickness: Thickness::Between(0.05, 5.0) };
-    let mut request = MatchRequest::new(&library, conditions.clone(), kind);
-    request.allowed = vec![white, blue];
-    let found = recipes(&library, &target, &request, &Task::default()).unwrap().remove(0);
+    let mut limits = RecipeLimits::new(&library, conditions.clone(), kind);
+    limits.allowed = vec![white, blue];
+    let found = recipes(&library, &target, &limits, &Task::default()).unwrap().remove(0);
     assert!(found.distance < 1e-3, "{found:?}");
     assert!((found.thickness.unwrap() - 0.6).abs() < 1e-3, "{:?}", found.thickness);
     assert!((found.shares.parts()[0].1 - 0.7).abs() < 1e-3, "{:?}", found.shares);
 
-    request.film = FilmKind::Over { ground, thickness: Thickness::Fixed(2.0) };
-    let other = recipes(&library, &target, &request, &Task::default()).unwrap().remove(0);
+    limits.film = FilmKind::Over { ground, thickness: Thickness::Fixed(2.0) };
+    let other = recipes(&library, &target, &limits, &Task::default()).unwrap().remove(0);
     assert_eq!(other.thickness, Some(2.0));
     assert!(other.distance > 0.5, "a film of another thickness has another colour: {other:?}");
 }
@@ -47,8 +47,8 @@ fn the_reflectance_told_is_that_of_the_recipe() {
     let ground = vec![0.5; library.grid.count()];
     let over = FilmKind::Over { ground: ground.clone(), thickness: Thickness::Fixed(0.8) };
     for film in [FilmKind::Hiding, over] {
-        let request = MatchRequest::new(&library, conditions.clone(), film.clone());
-        for recipe in recipes(&library, &target, &request, &Task::default()).unwrap() {
+        let limits = RecipeLimits::new(&library, conditions.clone(), film.clone());
+        for recipe in recipes(&library, &target, &limits, &Task::default()).unwrap() {
             let mixture = library.mix(&recipe.shares).unwrap();
             let mixed = match film {
                 FilmKind::Hiding => mixture.hiding(library.saunderson),
@@ -79,16 +79,16 @@ fn absolute_amounts_are_found_over_paper() {
     let blue = library.find("Ultramarine").unwrap();
     let wash = library.mix([(red, 0.3), (blue, 0.5)]).unwrap().film(1.0, &paper, library.film());
     let target = target_of(&library, &wash, &conditions);
-    let film = MatchRequest::usual_film(&library, paper);
-    let mut request = MatchRequest::new(&library, conditions, film);
-    request.allowed = vec![red, blue];
-    let found = recipes(&library, &target, &request, &Task::default()).unwrap().remove(0);
+    let film = RecipeLimits::usual_film(&library, paper);
+    let mut limits = RecipeLimits::new(&library, conditions, film);
+    limits.allowed = vec![red, blue];
+    let found = recipes(&library, &target, &limits, &Task::default()).unwrap().remove(0);
     let amounts: Vec<f64> =
         found.shares.iter().map(|(_, share)| share * found.thickness.unwrap()).collect();
     suite::golden::assert_near("amounts", &amounts, &[0.5, 0.3], 1e-3);
-    request.film = FilmKind::Hiding;
+    limits.film = FilmKind::Hiding;
     assert_eq!(
-        recipes(&library, &target, &request, &Task::default()),
+        recipes(&library, &target, &limits, &Task::default()),
         Err(MatchError::AbsoluteHiding)
     );
 }
@@ -97,15 +97,15 @@ fn absolute_amounts_are_found_over_paper() {
 fn absolute_amounts_cost_what_is_laid() {
     let library = absolute();
     let conditions = conditions(&["D65"]);
-    let film = MatchRequest::usual_film(&library, vec![0.85; library.grid.count()]);
-    let mut request = MatchRequest::new(&library, conditions.clone(), film);
-    request.costs = (0..library.pigments.len()).map(|index| 1.0 + index as f64).collect();
+    let film = RecipeLimits::usual_film(&library, vec![0.85; library.grid.count()]);
+    let mut limits = RecipeLimits::new(&library, conditions.clone(), film);
+    limits.costs = (0..library.pigments.len()).map(|index| 1.0 + index as f64).collect();
     let wanted = Lab { lightness: 60.0, a: -5.0, b: -20.0 };
     let target = calibrate::matching::Target::from_lab("", wanted, &conditions);
-    for recipe in recipes(&library, &target, &request, &Task::default()).unwrap() {
+    for recipe in recipes(&library, &target, &limits, &Task::default()).unwrap() {
         let amount = recipe.thickness.unwrap();
         let parts =
-            recipe.shares.iter().map(|(pigment, share)| share * request.costs[pigment.index()]);
+            recipe.shares.iter().map(|(pigment, share)| share * limits.costs[pigment.index()]);
         let wanted = amount * parts.sum::<f64>();
         assert!((amount - 1.0).abs() > 1e-3, "an amount near 1 tests nothing: {amount}");
         assert!((recipe.cost.unwrap() - wanted).abs() < 1e-9, "{recipe:?}");
@@ -129,10 +129,10 @@ fn absolute_amounts_stay_within_what_was_measured() {
         let recipe: Recipe = pair.into_iter().zip(wished).collect();
         let wash = library.mix(&recipe).unwrap().film(1.0, &paper, library.film());
         let target = target_of(&library, &wash, &conditions);
-        let film = MatchRequest::usual_film(&library, paper.clone());
-        let mut request = MatchRequest::new(&library, conditions.clone(), film);
-        (request.allowed, request.tolerance, request.count) = (pair.to_vec(), 0.0, 10);
-        let found = recipes(&library, &target, &request, &Task::default()).unwrap();
+        let film = RecipeLimits::usual_film(&library, paper.clone());
+        let mut limits = RecipeLimits::new(&library, conditions.clone(), film);
+        (limits.allowed, limits.tolerance, limits.count) = (pair.to_vec(), 0.0, 10);
+        let found = recipes(&library, &target, &limits, &Task::default()).unwrap();
         for recipe in &found {
             assert!(
                 amounts(recipe)
@@ -157,8 +157,8 @@ fn absolute_amounts_stay_within_what_was_measured() {
             let apart = delta_e_ciede2000(target.lab[0], lab(&weights, &film));
             assert!(found[0].distance <= apart + 0.01, "{wished:?}: {apart} with {tried:?}");
         }
-        request.amounts.clear();
-        let free = recipes(&library, &target, &request, &Task::default()).unwrap().remove(0);
+        limits.amounts.clear();
+        let free = recipes(&library, &target, &limits, &Task::default()).unwrap().remove(0);
         assert!(free.distance < 1e-3 && free.at_limit.is_empty(), "{wished:?}: {free:?}");
     }
 }
@@ -205,7 +205,7 @@ fn the_real_pot_matches_after_the_correction() {
     let target = ColorTarget::measured("standard", standard.clone());
     let options = CorrectRequest::default();
     let library = oils();
-    let found = library.corrections_for(&target, &batch, &options).unwrap();
+    let found = options.run(&library, &target, &batch, &Task::default()).unwrap();
     assert!(found.reaches && before > 4.0, "{before}");
     let least = &found.corrections[0];
     let mut pot: Vec<(String, f64)> =
@@ -226,7 +226,7 @@ fn the_least_addition_comes_first_and_no_smaller_one_is_near() {
     let batch = batch(library, &weighed);
     let target = ColorTarget::measured("standard", standard.clone());
     let options = CorrectRequest { at_most: 1, count: 11, ..CorrectRequest::default() };
-    let found = library.corrections_for(&target, &batch, &options).unwrap();
+    let found = options.run(library, &target, &batch, &Task::default()).unwrap();
     assert!(found.corrections.is_sorted_by(|a, b| a.grams <= b.grams));
     let best = &found.corrections[0];
     let (id, grams) = best.additions[0];
@@ -251,21 +251,21 @@ fn stock_and_limits_hold() {
     let weighed = [("Zinc White", 80.0), ("Cobalt Blue", 9.0), ("Chrome Yellow", 5.0)];
     let batch = batch(library, &weighed);
     let free = CorrectRequest { only: vec!["Cobalt Blue".into()], ..Default::default() };
-    let needed = library.corrections_for(&target, &batch, &free).unwrap();
+    let needed = free.run(library, &target, &batch, &Task::default()).unwrap();
     assert!(needed.reaches);
     let needed = needed.corrections[0].grams;
     let short =
         CorrectRequest { stock: vec![("Cobalt Blue".into(), needed / 2.0)], ..free.clone() };
-    let found = library.corrections_for(&target, &batch, &short).unwrap();
+    let found = short.run(library, &target, &batch, &Task::default()).unwrap();
     assert!(!found.reaches && found.corrections[0].distance > 0.5);
     let (id, grams) = found.corrections[0].additions[0];
     assert!((grams - needed / 2.0).abs() < 0.01 * needed, "{grams} of {needed}");
     assert_eq!(found.corrections[0].out_of_stock, [id]);
     let little = CorrectRequest { most_grams: Some(needed / 4.0), ..free.clone() };
-    let found = library.corrections_for(&target, &batch, &little).unwrap();
+    let found = little.run(library, &target, &batch, &Task::default()).unwrap();
     assert!(!found.reaches && found.corrections[0].grams <= needed / 4.0 * (1.0 + 1e-9));
     let near = Batch { reflectance: measured(library, &RECIPE), ..batch.clone() };
-    let found = library.corrections_for(&target, &near, &free).unwrap();
+    let found = free.run(library, &target, &near, &Task::default()).unwrap();
     assert!(found.is_near && found.corrections.is_empty());
 }
 
@@ -275,7 +275,7 @@ fn batches_that_cannot_be_corrected_are_refused() {
     let target = ColorTarget::measured("standard", measured(library, &RECIPE));
     let batch = batch(library, &RECIPE);
     let refused = |batch: &Batch, options: &CorrectRequest| {
-        library.corrections_for(&target, batch, options).unwrap_err()
+        options.run(library, &target, batch, &Task::default()).unwrap_err()
     };
     let usual = CorrectRequest::default();
     let unknown = Batch { made: vec![("Cobalt Green".into(), 1.0)], ..batch.clone() };
@@ -287,7 +287,7 @@ fn batches_that_cannot_be_corrected_are_refused() {
     let none = CorrectRequest { at_most: 0, ..usual.clone() };
     assert!(matches!(refused(&batch, &none), MatchError::Number { .. }));
     let absolute = PigmentLibrary { amounts: AmountKind::Absolute, ..library.clone() };
-    let error = absolute.corrections_for(&target, &batch, &usual).unwrap_err();
+    let error = usual.run(&absolute, &target, &batch, &Task::default()).unwrap_err();
     assert_eq!(error, MatchError::AbsoluteBatch);
 }
 
@@ -304,15 +304,15 @@ fn a_batch_is_corrected_by_its_spectrum() {
         tolerance: 0.01,
         ..Default::default()
     };
-    let found = library.corrections_for(&target, &batch, &options).unwrap();
+    let found = options.run(library, &target, &batch, &Task::default()).unwrap();
     assert!(found.reaches && found.batch_rms_percent.unwrap() > 1.0, "{found:?}");
     let least = &found.corrections[0];
     assert!(least.rms_percent.unwrap() <= 0.01 + 1e-9, "{least:?}");
     // The pot of 500 g has 97 parts and lacks 3. Its S comes from what should have been weighed.
     assert!((least.grams - 500.0 * 3.0 / 97.0).abs() < 0.3, "{}", least.grams);
     let same = Batch { reflectance: standard, ..batch.clone() };
-    assert!(library.corrections_for(&target, &same, &options).unwrap().is_near);
+    assert!(options.run(library, &target, &same, &Task::default()).unwrap().is_near);
     let color = "#4a7d8c".parse().unwrap();
-    let refused = library.corrections_for(&color, &batch, &options).unwrap_err();
+    let refused = options.run(library, &color, &batch, &Task::default()).unwrap_err();
     assert!(matches!(refused, MatchError::NoSpectrum { .. }), "{refused}");
 }

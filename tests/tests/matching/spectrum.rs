@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use calibrate::PigmentId;
 use calibrate::library::PigmentLibrary;
 use calibrate::matching::{
-    ColorTarget, FilmKind, MatchError, MatchOptions, MatchRequest, Metric, RecipeMatch,
+    ColorTarget, FilmKind, MatchError, MatchRequest, Metric, RecipeLimits, RecipeMatch,
     RequiredName, RequiredPigment, SpectrumWeights, Target, Thickness, ToleranceOrigin, recipes,
 };
 use documents::hint::Explain;
@@ -18,12 +18,12 @@ use spectra::{Extrapolation, Grid, Interpolation, Reflectance, Spectrum, Viewing
 
 use super::{conditions, oils};
 
-fn by_spectrum(weights: SpectrumWeights) -> MatchOptions {
-    MatchOptions {
+fn by_spectrum(weights: SpectrumWeights) -> MatchRequest {
+    MatchRequest {
         metric: Metric::Spectrum(weights),
         conditions: conditions(&["D65", "A", "FL11"]),
         count: 1,
-        ..MatchOptions::default()
+        ..MatchRequest::default()
     }
 }
 
@@ -53,8 +53,8 @@ fn a_mixture_is_found_again_from_its_own_spectrum() {
     for recipe in recipes {
         for weights in [SpectrumWeights::Even, SpectrumWeights::Observer] {
             let target = measured(&library, recipe);
-            let options = MatchOptions { tolerance: Some(0.0), ..by_spectrum(weights) };
-            let found = library.recipes_for(&target, &options).unwrap();
+            let options = MatchRequest { tolerance: Some(0.0), ..by_spectrum(weights) };
+            let found = options.run(&library, &target, &Task::default()).unwrap();
             let best = &found.recipes[0];
             let rms = best.rms_percent.unwrap();
             assert!(rms < 1e-3 && (rms - best.distance).abs() < 1e-9, "{recipe:?}: {best:?}");
@@ -77,13 +77,13 @@ fn a_film_is_found_again_with_its_thickness() {
     let recipe = [("Viridian", 0.6), ("Ultramarine", 0.4)];
     let color = library.film_color(recipe, &film, &Viewing::default()).unwrap();
     let target = ColorTarget::measured("glaze", color.reflectance);
-    let options = MatchOptions {
+    let options = MatchRequest {
         thickness: Some(Thickness::Between(0.1, 5.0)),
         over: Some(calibrate::Backing::Even(0.85)),
         tolerance: Some(0.0),
         ..by_spectrum(SpectrumWeights::Even)
     };
-    let found = library.recipes_for(&target, &options).unwrap();
+    let found = options.run(&library, &target, &Task::default()).unwrap();
     let best = &found.recipes[0];
     assert!(best.distance < 1e-3, "{best:?}");
     assert!((best.thickness.unwrap() - 0.7).abs() < 1e-3, "{best:?}");
@@ -98,10 +98,10 @@ fn a_film_is_found_again_with_its_thickness() {
 fn limits_of_recipes_hold_by_spectrum_too() {
     let library = oils();
     let target = measured(&library, &[("Zinc White", 0.7), ("Cobalt Blue", 0.2), ("Minium", 0.1)]);
-    let of = |change: &dyn Fn(&mut MatchOptions)| {
+    let of = |change: &dyn Fn(&mut MatchRequest)| {
         let mut options = by_spectrum(SpectrumWeights::Even);
         change(&mut options);
-        library.recipes_for(&target, &options).unwrap()
+        options.run(&library, &target, &Task::default()).unwrap()
     };
     let free = of(&|_| {});
     assert!(free.nearest() < 1e-3);
@@ -132,7 +132,7 @@ fn the_difference_is_the_root_mean_square_over_the_shared_band() {
     let cut = color.reflectance.resampled(band, Interpolation::Linear, Extrapolation::Hold);
     let values = cut.unwrap().values().iter().map(|value| value + 0.02).collect();
     let target = Spectrum::<Reflectance>::new(band, values).unwrap();
-    let options = MatchOptions {
+    let options = MatchRequest {
         with: recipe
             .map(|(name, share)| RequiredName { name: name.into(), share: Some(share) })
             .into(),
@@ -140,7 +140,7 @@ fn the_difference_is_the_root_mean_square_over_the_shared_band() {
         ..by_spectrum(SpectrumWeights::Even)
     };
     let target = ColorTarget::measured("part", target);
-    let found = library.recipes_for(&target, &options).unwrap();
+    let found = options.run(&library, &target, &Task::default()).unwrap();
     assert!((found.nearest() - 2.0).abs() < 1e-9, "{}", found.nearest());
     assert_eq!(found.target.spectrum.as_ref().unwrap().band_nm(), [450.0, 620.0]);
     assert!(found.remarks.iter().any(|r| r.text.contains("450 to 620 nm only")), "{found:?}");
@@ -151,7 +151,7 @@ fn a_colour_and_a_foreign_band_are_refused_with_a_way_out() {
     let library = oils();
     let options = by_spectrum(SpectrumWeights::Even);
     for text in ["#4a7d8c", "52,-10.5,8"] {
-        let refused = library.recipes_for(&text.parse().unwrap(), &options).unwrap_err();
+        let refused = options.run(&library, &text.parse().unwrap(), &Task::default()).unwrap_err();
         assert!(matches!(refused, MatchError::NoSpectrum { .. }), "{refused}");
         assert!(refused.hint().unwrap().to_string().contains("match by colour"), "{refused}");
     }
@@ -167,7 +167,8 @@ fn a_colour_and_a_foreign_band_are_refused_with_a_way_out() {
         pigment.scattering_sd.clear();
     }
     red.grid = Grid::from_nm(500.0, 10.0, 21).unwrap();
-    let refused = red.recipes_for(&ColorTarget::measured("blue", blue), &options).unwrap_err();
+    let refused =
+        options.run(&red, &ColorTarget::measured("blue", blue), &Task::default()).unwrap_err();
     let message = refused.to_string();
     assert!(message.contains("400 to 440 nm") && message.contains("500 to 700 nm"), "{message}");
 }
@@ -177,31 +178,31 @@ fn the_tolerance_is_in_percent_of_reflectance() {
     let library = oils();
     let options = by_spectrum(SpectrumWeights::Even);
     let search = library.recipe_search(&options).unwrap();
-    assert_eq!((search.request.tolerance, search.tolerance_origin), (0.2, ToleranceOrigin::Usual));
+    assert_eq!((search.limits.tolerance, search.tolerance_origin), (0.2, ToleranceOrigin::Usual));
     let target = measured(&library, &[("Zinc White", 0.5), ("Minium", 0.3), ("Viridian", 0.2)]);
     let plain = |tolerance: f64| {
-        let options = MatchOptions { tolerance: Some(tolerance), ..options.clone() };
-        library.recipes_for(&target, &options).unwrap().recipes[0].shares.len()
+        let options = MatchRequest { tolerance: Some(tolerance), ..options.clone() };
+        options.run(&library, &target, &Task::default()).unwrap().recipes[0].shares.len()
     };
     assert!(plain(0.0) == 3 && plain(20.0) == 1, "{} {}", plain(0.0), plain(20.0));
 }
 
-fn target(request: &MatchRequest) -> Target {
-    Target::from_lab("grey", Lab { lightness: 55.0, a: 3.0, b: -6.0 }, &request.conditions)
+fn target(limits: &RecipeLimits) -> Target {
+    Target::from_lab("grey", Lab { lightness: 55.0, a: 3.0, b: -6.0 }, &limits.conditions)
 }
 
 #[test]
 fn an_observed_search_finds_the_same_and_its_share_ends_at_one() {
     let library = oils();
     for at_most in 1..=4 {
-        let plain = MatchRequest::new(&library, conditions(&["D65"]), FilmKind::Hiding);
+        let plain = RecipeLimits::new(&library, conditions(&["D65"]), FilmKind::Hiding);
         let whole_parts = (at_most == 3).then_some(12);
-        let request = MatchRequest { at_most, whole_parts, ..plain };
-        let target = target(&request);
+        let limits = RecipeLimits { at_most, whole_parts, ..plain };
+        let target = target(&limits);
         let task = Task::default();
         assert_eq!(task.progress().share(), None);
-        let watched = recipes(&library, &target, &request, &task).unwrap();
-        assert_eq!(watched, recipes(&library, &target, &request, &Task::default()).unwrap());
+        let watched = recipes(&library, &target, &limits, &task).unwrap();
+        assert_eq!(watched, recipes(&library, &target, &limits, &Task::default()).unwrap());
         assert_eq!(task.progress().share(), Some(1.0), "up to {at_most} pigments");
     }
 }
@@ -209,29 +210,29 @@ fn an_observed_search_finds_the_same_and_its_share_ends_at_one() {
 #[test]
 fn with_required_pigments_the_share_ends_at_one_too() {
     let library = oils();
-    let mut request = MatchRequest::new(&library, conditions(&["D65"]), FilmKind::Hiding);
-    request.required =
+    let mut limits = RecipeLimits::new(&library, conditions(&["D65"]), FilmKind::Hiding);
+    limits.required =
         [0, 3].map(|id| RequiredPigment { pigment: PigmentId(id), share: None }).to_vec();
     let task = Task::default();
-    recipes(&library, &target(&request), &request, &task).unwrap();
+    recipes(&library, &target(&limits), &limits, &task).unwrap();
     assert_eq!(task.progress().share(), Some(1.0));
 }
 
 #[test]
 fn a_search_that_is_stopped_gives_nothing_and_ends_early() {
     let library = oils();
-    let mut request = MatchRequest::new(&library, conditions(&["D65", "A"]), FilmKind::Hiding);
-    request.at_most = 8;
-    let target = target(&request);
+    let mut limits = RecipeLimits::new(&library, conditions(&["D65", "A"]), FilmKind::Hiding);
+    limits.at_most = 8;
+    let target = target(&limits);
     let task = Task::default();
     task.cancel();
     let cancelled = Err(MatchError::Cancelled(Cancelled));
-    assert_eq!(recipes(&library, &target, &request, &task), cancelled);
+    assert_eq!(recipes(&library, &target, &limits, &task), cancelled);
     assert_eq!(task.progress().share(), Some(0.0), "nothing was tried");
     let running = Task::default();
     let share = || running.progress().share().unwrap_or(0.0);
     thread::scope(|scope| {
-        let search = scope.spawn(|| recipes(&library, &target, &request, &running));
+        let search = scope.spawn(|| recipes(&library, &target, &limits, &running));
         let patience = Instant::now() + Duration::from_secs(60);
         while share() == 0.0 && Instant::now() < patience {
             thread::sleep(Duration::from_micros(100));

@@ -6,7 +6,7 @@ use calibrate::matching::{
     Batch, ColorTarget, CorrectRequest, Correction, Corrections, Metric, TargetColor,
 };
 use clap::{Arg, Args};
-use documents::{counted, name_list};
+use documents::{Task, counted, name_list};
 use serde_json::{Map, Value, json};
 use spectra::color::Lab;
 use spectra::{Reflectance, Spectrum};
@@ -99,7 +99,7 @@ impl Correct {
         let stock = amounts("--stock", &request.take("stock"))?;
         let options = CorrectRequest { conditions, stock, ..request.request()? };
         let found = waited("searching corrections", console, || {
-            library.corrections_for(&target, &batch, &options)
+            options.run(&library, &target, &batch, &Task::default())
         })?;
         console.remarks(&found.remarks)?;
         let report = Report { library: &library, options: &options, grams };

@@ -7,7 +7,7 @@
 use calibrate::IlluminantChange;
 use calibrate::library::{AmountKind, PigmentLibrary};
 use calibrate::matching::{
-    AmountLimit, MatchOptions, Metric, RecipeMatch, RecipeMatches, RecipeSearch, RequiredName,
+    AmountLimit, MatchRequest, Metric, RecipeMatch, RecipeMatches, RecipeSearch, RequiredName,
     SpectrumWeights, ToleranceOrigin, parse_share,
 };
 use clap::{Arg, Args};
@@ -43,7 +43,7 @@ pub(crate) struct Match {
     #[arg(required = true, value_name = "[LIBRARY] TARGET")]
     words: Vec<String>,
     #[command(flatten)]
-    request: RequestOptions<MatchOptions>,
+    request: RequestOptions<MatchRequest>,
     /// Light, as in `color`, with its weight where there are several (may be repeated) [default: D65;
     /// by spectrum, where lights only tell the differences, D65, A and FL11]
     #[arg(long, value_name = "LIGHT[=WEIGHT]")]
@@ -61,7 +61,7 @@ pub(crate) struct Match {
     csv: bool,
 }
 
-impl CommandLine for MatchOptions {
+impl CommandLine for MatchRequest {
     fn adapted(key: &str, option: Arg) -> Arg {
         match key {
             "by" => without_value(option, Metric::Cie1976.name()),
@@ -124,7 +124,7 @@ impl Match {
     }
 
     /// Options of the search; reads the files that they name.
-    fn options(&self, library: &PigmentLibrary, console: &mut Console<'_>) -> Result<MatchOptions> {
+    fn options(&self, library: &PigmentLibrary, console: &mut Console<'_>) -> Result<MatchRequest> {
         let mut request = self.request.clone();
         let with = request.take("with");
         let costs = request.take("prices");
@@ -150,7 +150,7 @@ impl Match {
         let lights = self.illuminant.iter().map(String::as_str).chain(usual.iter().copied());
         let conditions = lights.map(|text| condition(text, &self.observer));
         let with = with.iter().map(|text| required(text, library));
-        Ok(MatchOptions {
+        Ok(MatchRequest {
             conditions: conditions.collect::<Result<_>>()?,
             over: over.first().map(|text| ground(text, console)).transpose()?,
             with: with.collect::<Result<_>>()?,
@@ -207,7 +207,7 @@ impl RecipeReport<'_> {
         let lab = csv_rows::lab(lab);
         console.line(format!("{patch}{}  Lab {lab} ({light}){outside}", target.name))?;
         let nearest = matched.nearest();
-        let unit = self.search.request.metric.unit();
+        let unit = self.search.limits.metric.unit();
         if !matched.is_reached() {
             console.line(format!(
                 "out of reach of these pigments: the nearest is {nearest:.2} {unit} away"
@@ -242,7 +242,7 @@ impl RecipeReport<'_> {
 
     /// The tolerance of the search and its reason.
     fn equally_near(&self) -> String {
-        let tolerance = self.search.request.tolerance;
+        let tolerance = self.search.limits.tolerance;
         let reason = match self.search.tolerance_origin {
             ToleranceOrigin::Given => "as --tolerance says",
             ToleranceOrigin::Library => "the mean error of this library's fit",
@@ -251,13 +251,13 @@ impl RecipeReport<'_> {
         format!(
             "equally near within {} {}, {reason}: the plainest first",
             at_most(tolerance, 3),
-            self.search.request.metric.unit()
+            self.search.limits.metric.unit()
         )
     }
 
     /// How differences of spectra are measured, for a search by spectrum.
     fn spectrum_measure(&self, matched: &RecipeMatches) -> Option<String> {
-        let weights = match self.search.request.metric.spectrum_weights()? {
+        let weights = match self.search.limits.metric.spectrum_weights()? {
             SpectrumWeights::Even => "each wavelength equally",
             SpectrumWeights::Observer => "each wavelength as the observer sees it",
         };

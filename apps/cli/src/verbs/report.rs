@@ -1,23 +1,30 @@
 //! `impasto report`: draws a library and its measurements as one page of figures.
 
-use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
-use calibrate::comparison::{Comparable, Comparison};
-use calibrate::library::PigmentLibrary;
-use calibrate::palette::Cards;
-use calibrate::quadrature::QuadratureTrial;
+use calibrate::Readings;
+use calibrate::comparison::Comparison;
 use calibrate::validation::Validation;
-use clap::Args;
-use reports::{STEPS, Subject};
+use clap::{Arg, ArgAction, Args};
+use reports::{ReportError, ReportRequest, STEPS, Subject};
 use serde_json::{Value, json};
 
 use crate::console::Console;
-use crate::failure::{Failure, Result};
+use crate::failure::Result;
 use crate::library_choice::{ChosenLibrary, chosen, split};
 use crate::output::{Output, OutputFolder};
 use crate::progress::Progress;
-use crate::readings::{ReadingOptions, ViewingOptions, color_weights, measurements};
+use crate::readings::{ReadingOptions, ViewingOptions, measurements, remark_coverage};
+use crate::request_options::{CommandLine, RequestOptions, refusal};
+
+impl CommandLine for ReportRequest {
+    fn adapted(key: &str, option: Arg) -> Arg {
+        match key {
+            "pair" => option.action(ArgAction::Set).num_args(2).value_names(["A", "B"]),
+            _ => option,
+        }
+    }
+}
 
 /// Draw a library and its measurements: one page, and each figure as SVG, PNG and CSV
 ///
@@ -38,12 +45,8 @@ pub(crate) struct Report {
     /// Folder for the page and its figures; created if missing
     #[arg(short, long, alias = "out", value_name = "FOLDER")]
     output: PathBuf,
-    /// Two pigments whose graded mixture is drawn [default: chosen from the library]
-    #[arg(long, num_args = 2, value_names = ["A", "B"])]
-    pair: Vec<String>,
-    /// Skip leaving mixtures out, which takes most of the time
-    #[arg(long)]
-    no_validation: bool,
+    #[command(flatten)]
+    request: RequestOptions<ReportRequest>,
     /// Recipes of the samples in a separate CSV, as for `fit`
     #[arg(long, value_name = "FILE", requires = "words")]
     recipes: Option<PathBuf>,
@@ -64,77 +67,39 @@ pub(crate) struct Report {
 
 impl Report {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
-        let viewing = self.viewing.viewing()?;
+        let request = ReportRequest { viewing: self.viewing.viewing()?, ..self.request.request()? };
         let (path, _) = split(&self.words, true);
         let ChosenLibrary { library, path } = chosen(path.as_deref(), console)?;
-        let weights = color_weights(&viewing, library.grid, console)?;
-        let pair = match self.pair.as_slice() {
-            [first, second] => Some((library.find(first)?, library.find(second)?)),
-            _ => None,
-        };
-        if let Some((first, second)) = pair
-            && first == second
-        {
-            return Err(Failure::usage(
-                format!(
-                    "--pair takes two different pigments, found `{}` twice",
-                    library[first].name
-                ),
-                "replace one of them by another pigment",
-            ));
-        }
-        let measured = self.comparable(&library, console)?;
-        let comparison = measured.as_ref().map(|set| set.with(&library, &viewing)).transpose()?;
-        if let Some(comparison) = &comparison {
+        remark_coverage(library.grid, console)?;
+        let readings = self.readings(console)?;
+        let prepared = request.prepare(&library, readings.as_ref(), console.command.as_str());
+        let prepared = prepared.map_err(|error| match error {
+            ReportError::Request(error) => refusal::<ReportRequest>(error),
+            error => error.into(),
+        })?;
+        if let Some(comparison) = prepared.comparison() {
             console.warnings(&reports::absences(comparison))?;
         }
-        let cards = measured.as_ref().map(|measured| measured.set.cards(&weights));
-        let cards = cards.unwrap_or_else(|| Cards::standard(library.grid));
         let inputs = self.inputs(path);
         let figures = self.folders(&inputs)?;
 
-        let measured = measured.filter(|_| !self.no_validation);
-        let mixtures = measured.as_ref().map_or(0, |set| set.mixtures(&library));
+        let mixtures = prepared.mixtures();
         let progress = Progress::new(mixtures + STEPS, "drawing", console.shows_progress());
-        let task = progress.task(0);
-        // In parallel, so that cores that finish one task help with the other.
-        let (validation, quadratures) = std::thread::scope(|scope| {
-            let trials = scope.spawn(|| QuadratureTrial::all(&viewing, &library, &COUNTS));
-            let left_out = measured.map(|set| set.left_out(&library, &viewing, &task));
-            (left_out.transpose(), trials.join().expect("quadrature trials do not panic"))
-        });
-        let validation = validation?;
-        let quadratures = quadratures?;
-        let subject = Subject {
-            library: &library,
-            viewing: &viewing,
-            weights,
-            command: console.command.clone(),
-            comparison,
-            validation: validation.flatten(),
-            cards,
-            quadratures,
-            pair,
-        };
+        let subject = prepared.subject(&progress.task(0))?;
         let report = reports::Report::draw(&subject, &progress.task(mixtures))?;
         progress.done();
         self.write(&report, &figures, &inputs, console)?;
         self.print(&report, &subject, console)
     }
 
-    /// Reads the measurements for comparison with `library`; `None` if no files are given.
-    fn comparable(
-        &self,
-        library: &PigmentLibrary,
-        console: &mut Console<'_>,
-    ) -> Result<Option<Comparable>> {
+    /// Reads the measurements, if files are given.
+    fn readings(&self, console: &mut Console<'_>) -> Result<Option<Readings>> {
         let files = self.files();
         if files.is_empty() {
             return Ok(None);
         }
         let recipes = self.recipes.as_deref();
-        let readings = measurements(&files, recipes, &self.pigments, &self.reading, console)?;
-        Ok(Some(Comparable::of(&readings.swatches()?, library)?))
+        measurements(&files, recipes, &self.pigments, &self.reading, console).map(Some)
     }
 
     /// Measurement files.
@@ -237,7 +202,5 @@ impl Report {
     }
 }
 
-/// Numbers of wavelengths that are tried with every quadrature method; chosen by eye.
-const COUNTS: RangeInclusive<usize> = 3..=16;
 /// File name of the page.
 const PAGE: &str = "report.html";

@@ -181,10 +181,9 @@ def quadrature(library: Library | None, request: str, light: Light, observer: st
 def report(
     library: Library,
     readings: Readings | None,
+    request: str,
     light: Light,
     observer: str,
-    pair: tuple[str, str] | None,
-    validate: bool,
     progress: _Progress,
 ) -> list[tuple[str, bytes]]: ...
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Callable, Mapping
 from html import escape
@@ -59,7 +60,8 @@ def report(
     """Draws a report on a library, as `impasto report` does; with readings also measured against
     predicted films and, if `validate`, errors of left-out mixtures."""
     native = None if readings is None else readings._native
+    request = json.dumps({"pair": pair, "no_validation": not validate})
     files = _native.report(
-        library._native, native, light_of(illuminant), observer, pair, validate, progress
+        library._native, native, request, light_of(illuminant), observer, progress
     )
     return Report({path: bytes(content) for path, content in files})

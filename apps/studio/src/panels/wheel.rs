@@ -7,7 +7,7 @@ use eframe::egui::{
     Align2, Color32, Context, FontId, Mesh, Painter, Pos2, Rect, Response, Role, Sense, Shape,
     Slider, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, vec2,
 };
-use pigment::matching::{MatchRequest, Target, ViewingCondition};
+use pigment::matching::{RecipeLimits, Target, ViewingCondition};
 use pigment::palette::{Appearance, Boundary, ColorWheel, PaletteError};
 use session::PaintingState;
 use spectra::color::{Lab, Rgb, delta_e_ciede2000};
@@ -445,8 +445,8 @@ fn request_for(painting: &PaintingState, wanted: Lab) -> SearchRequest {
     let viewing = painting.light.viewing.clone();
     let conditions = vec![ViewingCondition { viewing, weight: 1.0 }];
     let target = Target::from_lab("wanted", wanted, &conditions);
-    let film = MatchRequest::usual_film(&library, painting.ground_reflectance.to_vec());
-    let mut limits = MatchRequest::new(&library, conditions, film);
+    let film = RecipeLimits::usual_film(&library, painting.ground_reflectance.to_vec());
+    let mut limits = RecipeLimits::new(&library, conditions, film);
     limits.allowed = painting
         .slots
         .iter()

@@ -13,7 +13,7 @@ use paint::layer::SLOTS;
 use paint::strokes::{Action, PaletteSpec, Recipe, SurfaceId};
 use pigment::PigmentId;
 use pigment::evaluate::Viewing;
-use pigment::matching::{FilmKind, MatchRequest, RecipeMatch, Target, ViewingCondition, recipes};
+use pigment::matching::{FilmKind, RecipeLimits, RecipeMatch, Target, ViewingCondition, recipes};
 use session::swatches::{KeptMixture, SwatchBook, SwatchChange};
 use session::{Command, PaintingState, Picked, PickedLayer};
 use spectra::color::{Adaptation, Lab, RgbSpace};
@@ -144,12 +144,12 @@ fn library_recipes(
     target: &Target,
     conditions: Vec<ViewingCondition>,
 ) -> Vec<RecipeMatch> {
-    let mut request = MatchRequest::new(&painting.library, conditions, FilmKind::Hiding);
-    request.allowed = painting.slots.iter().copied().flatten().collect();
-    request.allowed.sort_unstable();
-    request.whole_parts = Some(40);
-    request.count = 3;
-    recipes(&painting.library, target, &request, &Task::default()).unwrap()
+    let mut limits = RecipeLimits::new(&painting.library, conditions, FilmKind::Hiding);
+    limits.allowed = painting.slots.iter().copied().flatten().collect();
+    limits.allowed.sort_unstable();
+    limits.whole_parts = Some(40);
+    limits.count = 3;
+    recipes(&painting.library, target, &limits, &Task::default()).unwrap()
 }
 
 fn conditions(painting: &PaintingState) -> Vec<ViewingCondition> {

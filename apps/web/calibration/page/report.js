@@ -24,10 +24,14 @@ function forget() {
   $("report-validate").disabled = !shelf.readings;
 }
 
+// The keys of `ReportRequest` (docs/schema/requests.json); the library chooses where a value is null.
+function reportRequest() {
+  return { no_validation: !$("report-validate").checked, viewing: viewing() };
+}
+
 async function draw() {
   const drawn = await work("drawing the report", (stage) => {
-    const args = [shelf.readings !== null, shelf.readings !== null && $("report-validate").checked, JSON.stringify(viewing())];
-    return long.call("report", args, stage);
+    return long.call("report", [shelf.readings !== null, JSON.stringify(reportRequest())], stage);
   });
   if (!drawn) return;
   html = drawn;

@@ -74,10 +74,10 @@ const calls = {
   recipes(place, options) {
     return JSON.parse(held.library.recipes(held.targets, place, options));
   },
-  report(withReadings, validate, viewing) {
+  report(withReadings, request) {
     return withReadings
-      ? held.library.report_with(held.readings, validate, viewing)
-      : held.library.report(viewing);
+      ? held.library.report_with(held.readings, request)
+      : held.library.report(request);
   },
   formats() {
     return JSON.parse(native.formats());

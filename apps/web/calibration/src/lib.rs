@@ -10,7 +10,6 @@ mod library;
 mod fitting;
 mod targets;
 mod matching;
-mod report;
 
 pub use fitting::Fit;
 pub use library::Library;

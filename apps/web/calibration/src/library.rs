@@ -1,14 +1,21 @@
-//! Pigment libraries, and colours of their mixtures.
+//! Pigment libraries, colours of their mixtures, and the report on them.
+
+use std::ops::RangeInclusive;
 
 use calibrate::curation::Swatches;
 use calibrate::library::AmountKind;
 use calibrate::{Backing, FilmOver, MixtureColor, PigmentLibrary, Viewing};
+use reports::{ReportRequest, page_alone};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use wasm_bindgen::prelude::*;
 
 use crate::failure::{Result, Told, request, setting};
+use crate::readings::Readings;
 use crate::remarks::remarks;
+
+/// How many wavelengths the quadratures in a report have.
+const WAVELENGTHS: RangeInclusive<usize> = 3..=12;
 
 /// A library of calibrated pigments.
 #[wasm_bindgen]
@@ -102,5 +109,34 @@ impl Library {
             "remarks": remarks(&told),
         })
         .to_string())
+    }
+
+    /// The report on the library alone, as one HTML page. The page hears each step.
+    pub fn report(&self, request: &str) -> Result<String> {
+        self.drawn(None, request)
+    }
+
+    /// The report that also compares each sample with the library, and leaves out each mixture in
+    /// turn unless the request says no.
+    pub fn report_with(&self, readings: &Readings, request: &str) -> Result<String> {
+        self.drawn(Some(&readings.0), request)
+    }
+}
+
+impl Library {
+    fn drawn(&self, readings: Option<&calibrate::Readings>, json: &str) -> Result<String> {
+        let request = request::<ReportRequest>(json)?;
+        let request = ReportRequest { wavelengths: WAVELENGTHS, ..request };
+        let task = told::task(|progress| match progress.done == progress.of {
+            // The mixtures are done, and another stage begins.
+            true => progress.stage.to_string(),
+            false => progress.to_string(),
+        });
+        let command = "calibration page of impasto";
+        let subject = request.run(&self.0, readings, command, &task).told()?;
+        let task = told::task(|progress| {
+            format!("figures, {} of {} sections", progress.done, progress.of)
+        });
+        Ok(page_alone(&subject, &task))
     }
 }

@@ -1,6 +1,6 @@
 //! Recipes for target colours.
 
-use calibrate::matching::MatchOptions;
+use calibrate::matching::MatchRequest;
 use documents::Task;
 use wasm_bindgen::prelude::*;
 
@@ -13,7 +13,7 @@ use crate::targets::Targets;
 impl Library {
     /// Recipes for the target at `place`, as JSON with the keys of `impasto match --json`, and `remarks`.
     pub fn recipes(&self, targets: &Targets, place: usize, options: &str) -> Result<String> {
-        let options: MatchOptions = request(options)?;
+        let options: MatchRequest = request(options)?;
         let target = targets.targets.get(place);
         let target = target.ok_or_else(|| setting("no such colour", "choose another"))?;
         let search = self.0.recipe_search(&options).told()?;

@@ -9,7 +9,7 @@
 //!
 //! The search returns the smallest addition that brings the colour near enough to the target.
 
-use documents::Task;
+use documents::{Cancelled, Task};
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -18,10 +18,10 @@ use spectra::optics::absorption_over_scattering;
 use spectra::{Extrapolation, InterpolateError, Interpolation, Reflectance, Spectrum};
 
 use super::forward::{Forward, Scratch};
-use super::options::find_all;
+use super::limits::{FilmKind, MatchError, RecipeLimits, RequiredPigment};
 use super::recipe_search::spectrum_of;
-use super::request::{FilmKind, MatchError, MatchRequest, RequiredPigment};
-use super::search::{Candidate, descend, search, within_limits};
+use super::request::find_all;
+use super::search::{Candidate, descend, expected, search, within_limits};
 use super::target::{ColorTarget, Metric, Target, TargetColor, ViewingCondition};
 use crate::evaluate::{Remark, check_visible_band, lab};
 use crate::least_squares::MAX_PIGMENTS;
@@ -45,8 +45,8 @@ pub struct Batch {
     pub reflectance: Spectrum<Reflectance>,
 }
 
-/// Options of [`PigmentLibrary::corrections_for`], which every program fills in its own way. Comments of the
-/// fields are the help texts of the command line and the descriptions of the schema.
+/// Options of a correction, which every program fills in its own way. [`Self::run`] searches corrections. Comments
+/// of the fields are the help texts of the command line and the descriptions of the schema.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(description = "Options of a correction")]
@@ -137,11 +137,12 @@ pub struct Corrections {
     pub remarks: Vec<Remark>,
 }
 
-impl PigmentLibrary {
+impl CorrectRequest {
     /// Searches what you add to `batch` so that it gets the colour of `target`. The least addition comes
-    /// first.
+    /// first. `task` counts the sets of pigments that we tried.
     ///
     /// ```
+    /// use documents::Task;
     /// use pigment::matching::{Batch, CorrectRequest};
     /// use pigment::{ColorTarget, PigmentLibrary, Viewing};
     ///
@@ -154,46 +155,48 @@ impl PigmentLibrary {
     ///     grams: 500.0,
     ///     reflectance: paint(9.0)?.reflectance,
     /// };
-    /// let found = oils.corrections_for(&standard, &batch, &CorrectRequest::default())?;
+    /// let found = CorrectRequest::default().run(&oils, &standard, &batch, &Task::default())?;
     /// let least = &found.corrections[0];
     /// assert!(found.reaches && least.distance <= 0.5 && least.grams < 25.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
     /// # Errors
-    /// [`MatchError`] for an unknown pigment, a number out of range, or a library of absolute amounts.
-    pub fn corrections_for(
+    /// [`MatchError`] for an unknown pigment, a number out of range, a library of absolute amounts, or if `task`
+    /// was cancelled.
+    pub fn run(
         &self,
+        library: &PigmentLibrary,
         target: &ColorTarget,
         batch: &Batch,
-        options: &CorrectRequest,
+        task: &Task,
     ) -> Result<Corrections, MatchError> {
-        options.check(self, batch)?;
+        self.check(library, batch)?;
         let mut remarks: Vec<Remark> =
             check_visible_band(batch.reflectance.grid())?.into_iter().collect();
         if let TargetColor::Reflectance(reflectance) = &target.color {
             remarks.extend(check_visible_band(reflectance.grid())?);
         }
-        let (library, predicted) = self.with_pot(batch)?;
-        let conditions = &options.conditions;
-        let spectrum = spectrum_of(target, self.grid, (options.metric, conditions), &mut remarks)?;
+        let (with_pot, predicted) = library_with_pot(library, batch)?;
+        let conditions = &self.conditions;
+        let spectrum = spectrum_of(target, library.grid, (self.metric, conditions), &mut remarks)?;
         let target = Target { spectrum, ..target.under(conditions)? };
         let measured = Target::from_reflectance("batch", &batch.reflectance, conditions)?.lab;
         let weights: Vec<_> = conditions
             .iter()
-            .map(|condition| condition.viewing.weights(self.grid))
+            .map(|condition| condition.viewing.weights(library.grid))
             .collect::<Result<_, _>>()?;
         let recipe: Vec<Lab> = weights.iter().map(|weights| lab(weights, &predicted)).collect();
         let batch_delta_e = differences(&measured, &target.lab);
         let total: f64 = conditions.iter().map(|condition| condition.weight).sum();
         let squares = batch_delta_e.iter().zip(conditions).map(|(d, c)| d * d * c.weight / total);
         let batch_rms_percent = match &target.spectrum {
-            Some(spectrum) => Some(spectrum.rms_percent(self.on_grid(batch)?.values())),
+            Some(spectrum) => Some(spectrum.rms_percent(on_grid(library, batch)?.values())),
             None => None,
         };
-        let by_spectrum = options.metric.spectrum_weights().and(batch_rms_percent);
+        let by_spectrum = self.metric.spectrum_weights().and(batch_rms_percent);
         let off = by_spectrum.unwrap_or_else(|| squares.sum::<f64>().sqrt());
-        let is_near = off <= options.tolerance;
+        let is_near = off <= self.tolerance;
         let mut found = Corrections {
             recipe_delta_e: differences(&measured, &recipe),
             target,
@@ -208,15 +211,15 @@ impl PigmentLibrary {
         if is_near {
             return Ok(found);
         }
-        let additions = options.additions(self, &library, batch.grams)?;
-        let request = MatchRequest {
-            metric: options.metric,
-            ..MatchRequest::new(&library, conditions.clone(), FilmKind::Hiding)
+        let additions = self.additions(library, &with_pot, batch.grams)?;
+        let limits = RecipeLimits {
+            metric: self.metric,
+            ..RecipeLimits::new(&with_pot, conditions.clone(), FilmKind::Hiding)
         };
-        let forward = Forward::new(&library, &request)?;
-        let (best, reaches) = additions.find(&forward, &found.target);
+        let forward = Forward::new(&with_pot, &limits)?;
+        let (best, reaches) = additions.find(&forward, &found.target, task)?;
         found.reaches = reaches;
-        let corrected = best.into_iter().take(options.count);
+        let corrected = best.into_iter().take(self.count);
         found.corrections = corrected
             .map(|addition| correction(&forward, &found.target, &additions, addition, batch.grams))
             .collect();
@@ -226,46 +229,6 @@ impl PigmentLibrary {
         Ok(found)
     }
 
-    /// The measured batch on the library's wavelengths.
-    fn on_grid(&self, batch: &Batch) -> Result<Spectrum<Reflectance>, InterpolateError> {
-        let method = Interpolation::best_for(batch.reflectance.grid());
-        batch.reflectance.resampled(self.grid, method, Extrapolation::Hold)
-    }
-
-    /// The library with the paint in the pot as a further pigment, and the reflectance that the recipe
-    /// predicts of it.
-    fn with_pot(&self, batch: &Batch) -> Result<(Self, Vec<f64>), MatchError> {
-        let recipe = self.recipe(batch.made.iter().map(|(name, part)| (name, *part)))?;
-        let curves = self.mix(&recipe)?;
-        let measured = self.on_grid(batch)?;
-        let scattering = curves.scattering.clone();
-        let absorption = measured.values().iter().zip(&scattering).map(|(&reading, s)| {
-            let internal = self.saunderson.internal_from_measured(reading).unwrap_or(0.0);
-            s * absorption_over_scattering(internal.clamp(LEAST_INTERNAL, 1.0))
-        });
-        let pot = Pigment {
-            name: "the batch".to_owned(),
-            color_index: None,
-            absorption: absorption.collect(),
-            scattering,
-            absorption_sd: Vec::new(),
-            scattering_sd: Vec::new(),
-            identified: true,
-            guessed: false,
-            measured_amounts: None,
-            notes: Vec::new(),
-        };
-        let mut library = self.clone();
-        library.pigments.push(pot);
-        Ok((library, curves.hiding(self.saunderson)))
-    }
-}
-
-fn differences(found: &[Lab], wanted: &[Lab]) -> Vec<f64> {
-    wanted.iter().zip(found).map(|(w, f)| delta_e_ciede2000(*w, *f)).collect()
-}
-
-impl CorrectRequest {
     fn check(&self, library: &PigmentLibrary, batch: &Batch) -> Result<(), MatchError> {
         if library.amounts == AmountKind::Absolute {
             return Err(MatchError::AbsoluteBatch);
@@ -352,6 +315,50 @@ impl CorrectRequest {
     }
 }
 
+/// The measured batch on the library's wavelengths.
+fn on_grid(
+    library: &PigmentLibrary,
+    batch: &Batch,
+) -> Result<Spectrum<Reflectance>, InterpolateError> {
+    let method = Interpolation::best_for(batch.reflectance.grid());
+    batch.reflectance.resampled(library.grid, method, Extrapolation::Hold)
+}
+
+/// The library with the paint in the pot as a further pigment, and the reflectance that the recipe
+/// predicts of it.
+fn library_with_pot(
+    library: &PigmentLibrary,
+    batch: &Batch,
+) -> Result<(PigmentLibrary, Vec<f64>), MatchError> {
+    let recipe = library.recipe(batch.made.iter().map(|(name, part)| (name, *part)))?;
+    let curves = library.mix(&recipe)?;
+    let measured = on_grid(library, batch)?;
+    let scattering = curves.scattering.clone();
+    let absorption = measured.values().iter().zip(&scattering).map(|(&reading, s)| {
+        let internal = library.saunderson.internal_from_measured(reading).unwrap_or(0.0);
+        s * absorption_over_scattering(internal.clamp(LEAST_INTERNAL, 1.0))
+    });
+    let pot = Pigment {
+        name: "the batch".to_owned(),
+        color_index: None,
+        absorption: absorption.collect(),
+        scattering,
+        absorption_sd: Vec::new(),
+        scattering_sd: Vec::new(),
+        identified: true,
+        guessed: false,
+        measured_amounts: None,
+        notes: Vec::new(),
+    };
+    let mut with_pot = library.clone();
+    with_pot.pigments.push(pot);
+    Ok((with_pot, curves.hiding(library.saunderson)))
+}
+
+fn differences(found: &[Lab], wanted: &[Lab]) -> Vec<f64> {
+    wanted.iter().zip(found).map(|(w, f)| delta_e_ciede2000(*w, *f)).collect()
+}
+
 fn correction(
     forward: &Forward<'_>,
     target: &Target,
@@ -430,9 +437,9 @@ impl Additions<'_> {
         PigmentId(self.library.pigments.len() - 1)
     }
 
-    /// A request for mixtures of the pot with additions, `share` of which is the pot.
-    fn request(&self, share: Option<f64>) -> MatchRequest {
-        let usual = MatchRequest::new(self.library, self.conditions.to_vec(), FilmKind::Hiding);
+    /// Limits of mixtures of the pot with additions, `share` of which is the pot.
+    fn limits(&self, share: Option<f64>) -> RecipeLimits {
+        let usual = RecipeLimits::new(self.library, self.conditions.to_vec(), FilmKind::Hiding);
         let pot = self.pot();
         let mut allowed = self.allowed.clone();
         allowed.push(pot);
@@ -450,7 +457,7 @@ impl Additions<'_> {
             })
             .collect();
         amounts.push(None);
-        MatchRequest {
+        RecipeLimits {
             allowed,
             required: vec![RequiredPigment { pigment: pot, share }],
             at_most: self.at_most + 1,
@@ -463,9 +470,15 @@ impl Additions<'_> {
 
     /// The additions of each set of pigments that come within the tolerance, the least first. If none does,
     /// you get those that come nearest, the nearest first.
-    pub(super) fn find(&self, forward: &Forward<'_>, target: &Target) -> (Vec<Addition>, bool) {
-        let whole = self.request(None);
-        let found = search(forward, &whole, target, &Task::default().steps(0));
+    pub(super) fn find(
+        &self,
+        forward: &Forward<'_>,
+        target: &Target,
+        task: &Task,
+    ) -> Result<(Vec<Addition>, bool), Cancelled> {
+        let whole = self.limits(None);
+        let found = search(forward, &whole, target, &task.steps(expected(&whole)));
+        task.check()?;
         let mut sets: Vec<Candidate> = found.into_iter().filter(|c| c.pigments.len() > 1).collect();
         let near = sets.iter().filter(|set| set.distance <= self.tolerance).count();
 
@@ -477,11 +490,13 @@ impl Additions<'_> {
         sets.truncate(MOST_SETS);
         let mut additions: Vec<Addition> = sets
             .par_iter()
-            .map_init(Scratch::default, |scratch, set| {
-                self.of_set(forward, target, &set.pigments, scratch)
+            .map_init(Scratch::default, |scratch, set| match task.is_cancelled() {
+                true => None,
+                false => self.of_set(forward, target, &set.pigments, scratch),
             })
             .flatten()
             .collect();
+        task.check()?;
 
         let reaches = additions.iter().any(|addition| addition.mixture.distance <= self.tolerance);
         if reaches {
@@ -490,7 +505,7 @@ impl Additions<'_> {
         } else {
             additions.sort_by(|a, b| a.mixture.distance.total_cmp(&b.mixture.distance));
         }
-        (without_needless(additions, reaches), reaches)
+        Ok((without_needless(additions, reaches), reaches))
     }
 
     /// The least addition of one set of pigments, the pot among them, or the nearest if none is near enough.
@@ -555,7 +570,7 @@ impl Additions<'_> {
         scratch: &mut Scratch,
     ) -> Option<Candidate> {
         let share = 1.0 / (1.0 + added);
-        let request = self.request(Some(share));
+        let limits = self.limits(Some(share));
         let others = (set.len() - 1) as f64;
         let start = Candidate {
             pigments: set.to_vec(),
@@ -571,8 +586,8 @@ impl Additions<'_> {
             thickness: 1.0,
             distance: f64::INFINITY,
         };
-        let start = within_limits(&request, &start)?;
-        descend(forward, &request, target, &start, scratch)
+        let start = within_limits(&limits, &start)?;
+        descend(forward, &limits, target, &start, scratch)
     }
 
     /// The addition in a mixture, without traces below the least amount. `None` if nothing is left.
@@ -629,4 +644,29 @@ fn without_needless(additions: Vec<Addition>, reaches: bool) -> Vec<Addition> {
 
 fn effort(reaches: bool, addition: &Addition) -> f64 {
     if reaches { addition.total() } else { addition.mixture.distance }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::evaluate::Viewing;
+
+    #[test]
+    fn a_cancelled_task_ends_a_correction() {
+        let oils = PigmentLibrary::van_gogh_oils();
+        let paint = |blue: f64| {
+            let parts = [("Zinc White", 100.0), ("Cobalt Blue", blue)];
+            oils.color(parts, &Viewing::default()).unwrap().reflectance
+        };
+        let target = ColorTarget::measured("standard", paint(12.0));
+        let made = vec![("Zinc White".to_owned(), 100.0), ("Cobalt Blue".to_owned(), 12.0)];
+        let batch = Batch { made, grams: 500.0, reflectance: paint(9.0) };
+        let request = CorrectRequest { at_most: 1, ..CorrectRequest::default() };
+        let task = Task::default();
+        let found = request.run(&oils, &target, &batch, &task).unwrap();
+        assert!(found.reaches && task.progress().done > 1, "{:?}", task.progress());
+        task.cancel();
+        let ended = request.run(&oils, &target, &batch, &task);
+        assert_eq!(ended, Err(MatchError::Cancelled(Cancelled)));
+    }
 }

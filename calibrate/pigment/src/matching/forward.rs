@@ -4,7 +4,7 @@ use spectra::color::{Lab, Xyz, ciede2000_residuals};
 use spectra::optics::UnevenFilm;
 use spectra::{InterpolateError, TristimulusWeights};
 
-use super::request::{FilmKind, MatchRequest};
+use super::limits::{FilmKind, RecipeLimits};
 use super::target::{Metric, SpectralTarget, Target};
 use crate::least_squares::{Cost, UNKNOWNS};
 use crate::library::PigmentLibrary;
@@ -34,10 +34,10 @@ pub(super) struct Scratch {
 impl<'a> Forward<'a> {
     pub(super) fn new(
         library: &'a PigmentLibrary,
-        request: &MatchRequest,
+        limits: &RecipeLimits,
     ) -> Result<Self, InterpolateError> {
-        let conditions = &request.conditions;
-        let ground = match &request.film {
+        let conditions = &limits.conditions;
+        let ground = match &limits.film {
             FilmKind::Hiding => None,
             FilmKind::Over { ground, .. } => {
                 let surface = library.saunderson;
@@ -54,7 +54,7 @@ impl<'a> Forward<'a> {
         Ok(Self {
             library,
             film: library.film(),
-            metric: request.metric,
+            metric: limits.metric,
             ground,
             weights: conditions
                 .iter()
@@ -262,7 +262,7 @@ mod tests {
     use super::*;
     use crate::evaluate::Viewing;
     use crate::library::Pigment;
-    use crate::matching::request::Thickness;
+    use crate::matching::limits::Thickness;
     use crate::matching::target::{SpectrumWeights, ViewingCondition};
     use spectra::{Grid, Illuminant, Observer, Reflectance, Spectrum};
 
@@ -321,11 +321,11 @@ mod tests {
             let [even, seen] =
                 [SpectrumWeights::Even, SpectrumWeights::Observer].map(Metric::Spectrum);
             for metric in [Metric::Ciede2000, Metric::Cie1976, even, seen] {
-                let request = MatchRequest {
+                let limits = RecipeLimits {
                     metric,
-                    ..MatchRequest::new(&library, conditions.clone(), film.clone())
+                    ..RecipeLimits::new(&library, conditions.clone(), film.clone())
                 };
-                let forward = Forward::new(&library, &request).unwrap();
+                let forward = Forward::new(&library, &limits).unwrap();
                 let weights = metric.spectrum_weights().unwrap_or_default();
                 let spectrum =
                     SpectralTarget::new(&measured, library.grid, weights, &conditions).unwrap();

@@ -6,24 +6,24 @@
 //! best recipe of a set with one pigment fewer.
 
 mod target;
-mod request;
+mod limits;
 mod forward;
 mod search;
 mod ranking;
-mod options;
+mod request;
 mod recipe_search;
 mod correction;
 
 pub use super::least_squares::{Bounds, Cost, MAX_PIGMENTS, UNKNOWNS, descend_within_bounds};
 pub use correction::{Batch, CorrectRequest, Correction, Corrections, USUAL_CORRECTION};
-pub use options::{
-    MatchOptions, PriceError, PriceList, RequiredName, ToleranceOrigin, parse_price, parse_share,
+pub use limits::{
+    FilmKind, MatchError, RecipeLimits, RequiredPigment, Thickness, USUAL_SPECTRUM_TOLERANCE,
+    USUAL_TOLERANCE,
 };
 pub use ranking::{AmountLimit, RecipeMatch, few_parts, recipes};
 pub use recipe_search::{RecipeMatches, RecipeSearch};
 pub use request::{
-    FilmKind, MatchError, MatchRequest, RequiredPigment, Thickness, USUAL_SPECTRUM_TOLERANCE,
-    USUAL_TOLERANCE,
+    MatchRequest, PriceError, PriceList, RequiredName, ToleranceOrigin, parse_price, parse_share,
 };
 pub use target::{
     ColorTarget, Metric, SpectralTarget, SpectrumWeights, Target, TargetColor, ViewingCondition,

@@ -6,7 +6,7 @@ use spectra::TristimulusWeights;
 use spectra::color::{Lab, Xyz, delta_e_ciede2000, metamerism_index};
 
 use super::forward::{Forward, Scratch};
-use super::request::{FilmKind, MatchError, MatchRequest, USUAL_TOLERANCE};
+use super::limits::{FilmKind, MatchError, RecipeLimits, USUAL_TOLERANCE};
 use super::search::{Candidate, expected, search};
 use super::target::Target;
 use crate::evaluate::lab;
@@ -18,13 +18,13 @@ use crate::recipe::{PigmentId, Recipe};
 pub struct RecipeMatch {
     /// Pigments of the library with their shares, sum 1, the greatest first.
     pub shares: Recipe,
-    /// The shares as whole parts, in the same order, if the request asks for these.
+    /// The shares as whole parts, in the same order, if the limits ask for these.
     pub parts: Option<Vec<u32>>,
     /// Thickness of the film. `None` for a film that hides.
     pub thickness: Option<f64>,
     /// CIEDE2000 from the target under each viewing condition.
     pub delta_e: Vec<f64>,
-    /// Weighted root mean square over all viewing conditions of the differences in the request's metric, or
+    /// Weighted root mean square over all viewing conditions of the differences in the metric of the limits, or
     /// over the shared wavelengths, in percent of reflectance, for a search by spectrum.
     pub distance: f64,
     /// Root mean square of the differences of reflectance from a measured target, in percent: with the
@@ -56,7 +56,7 @@ pub enum AmountLimit {
 
 /// Searches recipes of `library` for `target` and returns the best first.
 ///
-/// Some recipes are equally near (within the request's tolerance of the nearest). We order them by price if
+/// Some recipes are equally near (within the tolerance of the nearest). We order them by price if
 /// you give prices, then by the number of pigments, then by distance in steps of [`USUAL_TOLERANCE`], then
 /// by their smallest share, the greatest first. The others follow by distance. We leave out a recipe that
 /// adds a pigment to another one of the list without coming nearer by more than the tolerance.
@@ -65,18 +65,18 @@ pub enum AmountLimit {
 /// current recipe.
 ///
 /// # Errors
-/// [`MatchError`] if the request cannot be met, or `task` was cancelled.
+/// [`MatchError`] if no recipe can keep the limits, or `task` was cancelled.
 ///
 /// # Panics
-/// If a pigment of the request is not in the library, or a ground or target does not fit its grid and
+/// If a pigment of the limits is not in the library, or a ground or target does not fit its grid and
 /// viewing conditions.
 pub fn recipes(
     library: &PigmentLibrary,
     target: &Target,
-    request: &MatchRequest,
+    limits: &RecipeLimits,
     task: &Task,
 ) -> Result<Vec<RecipeMatch>, MatchError> {
-    Ok(recipes_and_nearest(library, target, request, task)?.0)
+    Ok(recipes_and_nearest(library, target, limits, task)?.0)
 }
 
 /// Recipes, and the distance of the nearest of all. You may not find that one in the list, if another is as
@@ -84,31 +84,31 @@ pub fn recipes(
 pub(super) fn recipes_and_nearest(
     library: &PigmentLibrary,
     target: &Target,
-    request: &MatchRequest,
+    limits: &RecipeLimits,
     task: &Task,
 ) -> Result<(Vec<RecipeMatch>, f64), MatchError> {
-    request.check(library)?;
-    if request.metric.spectrum_weights().is_some() && target.spectrum.is_none() {
+    limits.check(library)?;
+    if limits.metric.spectrum_weights().is_some() && target.spectrum.is_none() {
         return Err(MatchError::NoSpectrum { name: target.name.clone() });
     }
-    let forward = Forward::new(library, request).expect("the method fits the grid");
-    let steps = task.steps(expected(request));
-    let candidates = search(&forward, request, target, &steps);
-    let found: Vec<Found> = match request.whole_parts {
+    let forward = Forward::new(library, limits).expect("the method fits the grid");
+    let steps = task.steps(expected(limits));
+    let candidates = search(&forward, limits, target, &steps);
+    let found: Vec<Found> = match limits.whole_parts {
         None => candidates.into_iter().map(|candidate| (None, candidate)).collect(),
         Some(most) => {
-            let wanted = SPARE_RECIPES * request.count;
-            in_whole_parts(&forward, request, target, &candidates, (most, wanted), &steps)
+            let wanted = SPARE_RECIPES * limits.count;
+            in_whole_parts(&forward, limits, target, &candidates, (most, wanted), &steps)
                 .into_iter()
                 .map(|(parts, candidate)| (Some(parts), candidate))
                 .collect()
         }
     };
     task.check()?;
-    let cost = |candidate: &Candidate| cost(library, request, candidate);
+    let cost = |candidate: &Candidate| cost(library, limits, candidate);
     let nearest = found.iter().map(|(_, c)| c.distance).fold(f64::INFINITY, f64::min);
-    let ranked = ranked(found, nearest, request, &cost);
-    let recipes = ranked.into_iter().map(|found| recipe(&forward, request, target, found, &cost));
+    let ranked = ranked(found, nearest, limits, &cost);
+    let recipes = ranked.into_iter().map(|found| recipe(&forward, limits, target, found, &cost));
     Ok((recipes.collect(), nearest))
 }
 
@@ -122,10 +122,10 @@ type Found = (Option<Vec<u32>>, Candidate);
 fn ranked(
     mut found: Vec<Found>,
     nearest: f64,
-    request: &MatchRequest,
+    limits: &RecipeLimits,
     cost: &dyn Fn(&Candidate) -> f64,
 ) -> Vec<Found> {
-    let tolerated = nearest + request.tolerance;
+    let tolerated = nearest + limits.tolerance;
     found.sort_by(|(_, a), (_, b)| {
         let by_distance = a.distance.total_cmp(&b.distance);
         let order = match (a.distance <= tolerated, b.distance <= tolerated) {
@@ -142,12 +142,12 @@ fn ranked(
     });
     let mut shown: Vec<Found> = Vec::new();
     for (parts, candidate) in found {
-        if shown.len() >= request.count {
+        if shown.len() >= limits.count {
             break;
         }
         let adds_nothing = shown.iter().any(|(_, before)| {
             before.pigments.iter().all(|pigment| candidate.pigments.contains(pigment))
-                && candidate.distance > before.distance - request.tolerance
+                && candidate.distance > before.distance - limits.tolerance
         });
         if !adds_nothing {
             shown.push((parts, candidate));
@@ -165,10 +165,10 @@ fn smallest_share(c: &Candidate) -> f64 {
 }
 
 /// Price of a candidate. If you give no prices, it is 0 for all, which leaves their order unchanged.
-fn cost(library: &PigmentLibrary, request: &MatchRequest, candidate: &Candidate) -> f64 {
+fn cost(library: &PigmentLibrary, limits: &RecipeLimits, candidate: &Candidate) -> f64 {
     let parts = candidate.pigments.iter().zip(&candidate.shares);
     let of_one: f64 =
-        parts.map(|(p, share)| share * request.costs.get(p.index()).unwrap_or(&0.0)).sum();
+        parts.map(|(p, share)| share * limits.costs.get(p.index()).unwrap_or(&0.0)).sum();
     match library.amounts {
         AmountKind::Relative => of_one,
         // The thickness is the sum of all amounts.
@@ -178,7 +178,7 @@ fn cost(library: &PigmentLibrary, request: &MatchRequest, candidate: &Candidate)
 
 fn recipe(
     forward: &Forward<'_>,
-    request: &MatchRequest,
+    limits: &RecipeLimits,
     target: &Target,
     (parts, candidate): Found,
     cost: &dyn Fn(&Candidate) -> f64,
@@ -195,13 +195,13 @@ fn recipe(
         metamerism: spectrum.map_or_else(Vec::new, |_| metamerism(forward, target, &labs)),
         shares: order.iter().map(|&at| (pigments[at], shares[at])).collect(),
         parts: parts.map(|parts| order.iter().map(|&at| parts[at]).collect()),
-        thickness: (request.film != FilmKind::Hiding).then_some(*thickness),
+        thickness: (limits.film != FilmKind::Hiding).then_some(*thickness),
         delta_e: labs.iter().zip(&target.lab).map(|(a, b)| delta_e_ciede2000(*b, *a)).collect(),
         distance: *distance,
         lab: labs,
         reflectance,
-        at_limit: order.iter().filter_map(|&at| at_limit(request, &candidate, at)).collect(),
-        cost: (!request.costs.is_empty()).then(|| cost(&candidate)),
+        at_limit: order.iter().filter_map(|&at| at_limit(limits, &candidate, at)).collect(),
+        cost: (!limits.costs.is_empty()).then(|| cost(&candidate)),
     }
 }
 
@@ -226,13 +226,13 @@ fn xyz_pair(whites: &[Xyz], labs: &[Lab], at: usize) -> [Xyz; 2] {
 
 /// The limit of amounts that one pigment of a recipe has reached, if any.
 fn at_limit(
-    request: &MatchRequest,
+    limits: &RecipeLimits,
     candidate: &Candidate,
     place: usize,
 ) -> Option<(PigmentId, AmountLimit)> {
     let pigment = candidate.pigments[place];
     let amount = candidate.shares[place] * candidate.thickness;
-    let [least, most] = request.amount_bounds(pigment)?;
+    let [least, most] = limits.amount_bounds(pigment)?;
     if amount <= least * (1.0 + AT_LIMIT) {
         Some((pigment, AmountLimit::Least))
     } else if amount >= most * (1.0 - AT_LIMIT) {
@@ -259,7 +259,7 @@ const MOST_RECIPES: u64 = 4_000;
 /// nearer. A set with more than 4000 recipes keeps the rounded recipe.
 pub(super) fn in_whole_parts(
     forward: &Forward<'_>,
-    request: &MatchRequest,
+    limits: &RecipeLimits,
     target: &Target,
     candidates: &[Candidate],
     (most, wanted): (u32, usize),
@@ -269,7 +269,7 @@ pub(super) fn in_whole_parts(
         if steps.task().is_cancelled() {
             return None;
         }
-        let mut set = Set { forward, request, target, candidate, scratch };
+        let mut set = Set { forward, limits, target, candidate, scratch };
         let parts = if every { set.nearest_of_all(most) } else { set.nearest_rounded(most) };
         parts.map(|(parts, distance)| {
             let shares = shares(&parts);
@@ -309,7 +309,7 @@ fn count(pigments: u32, most: u32) -> u64 {
 /// One set of pigments, to be expressed in whole parts.
 struct Set<'a> {
     forward: &'a Forward<'a>,
-    request: &'a MatchRequest,
+    limits: &'a RecipeLimits,
     target: &'a Target,
     candidate: &'a Candidate,
     scratch: &'a mut Scratch,
@@ -324,7 +324,7 @@ impl Set<'_> {
     fn allows(&self, parts: &[u32]) -> bool {
         let Candidate { pigments, thickness, .. } = self.candidate;
         pigments.iter().zip(shares(parts)).all(|(&pigment, share)| {
-            let (least, most) = self.request.share_bounds_at(pigment, *thickness);
+            let (least, most) = self.limits.share_bounds_at(pigment, *thickness);
             (least - 1e-12..=most + 1e-12).contains(&share)
         })
     }

@@ -7,9 +7,9 @@ use serde_json::{Map, Value, json};
 use spectra::Grid;
 use spectra::color::{Adaptation, Lab, Rgb, RgbSpace};
 
-use super::options::{MatchOptions, ToleranceOrigin};
+use super::limits::{FilmKind, MatchError, RecipeLimits, USUAL_TOLERANCE};
 use super::ranking::{AmountLimit, RecipeMatch, recipes, recipes_and_nearest};
-use super::request::{FilmKind, MatchError, MatchRequest, USUAL_TOLERANCE};
+use super::request::{MatchRequest, ToleranceOrigin};
 use super::target::{ColorTarget, Metric, SpectralTarget, Target, TargetColor, ViewingCondition};
 use crate::color::IlluminantChange;
 use crate::evaluate::{Remark, WANTED_NM, check_visible_band};
@@ -28,8 +28,8 @@ const FAR: f64 = 5.0;
 pub struct RecipeSearch<'a> {
     pub(super) library: &'a PigmentLibrary,
     /// Limits of the recipes.
-    pub request: MatchRequest,
-    /// Origin of the request's tolerance.
+    pub limits: RecipeLimits,
+    /// Origin of the tolerance.
     pub tolerance_origin: ToleranceOrigin,
     /// Choices that we made in preparing the search, and warnings.
     pub remarks: Vec<Remark>,
@@ -87,19 +87,25 @@ impl PigmentLibrary {
     ///
     /// # Errors
     /// [`MatchError`] if a name is unknown, or options exclude each other.
-    pub fn recipe_search(&self, options: &MatchOptions) -> Result<RecipeSearch<'_>, MatchError> {
-        let (request, remarks) = options.request(self)?;
+    pub fn recipe_search(&self, options: &MatchRequest) -> Result<RecipeSearch<'_>, MatchError> {
+        let (limits, remarks) = options.limits(self)?;
         let tolerance_origin = options.tolerance_for(self).1;
-        Ok(RecipeSearch { library: self, request, tolerance_origin, remarks })
+        Ok(RecipeSearch { library: self, limits, tolerance_origin, remarks })
     }
+}
 
-    /// Searches recipes for a colour or a measured spectrum.
+impl MatchRequest {
+    /// Searches recipes of a library for a colour or a measured spectrum. `task` counts the sets of pigments
+    /// that we tried in the first of the searches that a target may take. If you have several targets, prepare
+    /// the search once with [`PigmentLibrary::recipe_search`].
     ///
     /// ```
-    /// use pigment::{MatchOptions, PigmentLibrary};
+    /// use documents::Task;
+    /// use pigment::{MatchRequest, PigmentLibrary};
     ///
     /// let oils = PigmentLibrary::van_gogh_oils();
-    /// let found = oils.recipes_for(&"#4a7d8c".parse()?, &MatchOptions::default())?;
+    /// let request = MatchRequest::default();
+    /// let found = request.run(&oils, &"#4a7d8c".parse()?, &Task::default())?;
     /// let best = &found.recipes[0];
     /// for &(pigment, share) in &best.shares {
     ///     println!("{:5.1} % {}", 100.0 * share, oils[pigment].name);
@@ -110,13 +116,15 @@ impl PigmentLibrary {
     /// ```
     ///
     /// # Errors
-    /// [`MatchError`] if a name is unknown, options exclude each other, or no recipe fits them.
-    pub fn recipes_for(
+    /// [`MatchError`] if a name is unknown, options exclude each other, no recipe fits them, or `task` was
+    /// cancelled.
+    pub fn run(
         &self,
+        library: &PigmentLibrary,
         target: &ColorTarget,
-        options: &MatchOptions,
+        task: &Task,
     ) -> Result<RecipeMatches, MatchError> {
-        self.recipe_search(options)?.recipes_for(target, &Task::default())
+        library.recipe_search(self)?.recipes_for(target, task)
     }
 }
 
@@ -136,10 +144,10 @@ impl RecipeSearch<'_> {
         if let TargetColor::Reflectance(reflectance) = &target.color {
             remarks.extend(check_visible_band(reflectance.grid())?);
         }
-        let MatchRequest { metric, conditions, .. } = &self.request;
+        let RecipeLimits { metric, conditions, .. } = &self.limits;
         let spectrum = spectrum_of(target, self.library.grid, (*metric, conditions), &mut remarks)?;
-        let target = Target { spectrum, ..target.under(&self.request.conditions)? };
-        let (found, nearest) = recipes_and_nearest(self.library, &target, &self.request, task)?;
+        let target = Target { spectrum, ..target.under(&self.limits.conditions)? };
+        let (found, nearest) = recipes_and_nearest(self.library, &target, &self.limits, task)?;
         let further = task.quiet();
         if found.is_empty() {
             return Err(MatchError::NoRecipe);
@@ -152,10 +160,10 @@ impl RecipeSearch<'_> {
             remarks,
             nearest,
         };
-        if matches.nearest() > FAR && self.request.metric == Metric::Ciede2000 {
+        if matches.nearest() > FAR && self.limits.metric == Metric::Ciede2000 {
             let metric = Metric::Cie1976;
-            let request = MatchRequest { metric, count: 1, ..self.request.clone() };
-            matches.by_cie1976 = recipes(self.library, &matches.target, &request, &further)?;
+            let limits = RecipeLimits { metric, count: 1, ..self.limits.clone() };
+            matches.by_cie1976 = recipes(self.library, &matches.target, &limits, &further)?;
         }
         Ok(matches)
     }
@@ -167,11 +175,11 @@ impl RecipeSearch<'_> {
         nearest: f64,
         task: &Task,
     ) -> Result<Option<f64>, MatchError> {
-        if self.request.amounts.iter().all(Option::is_none) {
+        if self.limits.amounts.iter().all(Option::is_none) {
             return Ok(None);
         }
-        let request = MatchRequest { amounts: Vec::new(), count: 1, ..self.request.clone() };
-        let (_, free) = recipes_and_nearest(self.library, target, &request, task)?;
+        let limits = RecipeLimits { amounts: Vec::new(), count: 1, ..self.limits.clone() };
+        let (_, free) = recipes_and_nearest(self.library, target, &limits, task)?;
         Ok((free < nearest - USUAL_TOLERANCE).then_some(free))
     }
 }
@@ -232,10 +240,10 @@ impl RecipeSearch<'_> {
             "reached": matched.is_reached(),
             "nearest": matched.nearest(),
             "beyond_measured": matched.beyond_measured(),
-            "by": self.request.metric.name(),
-            "unit": self.request.metric.unit(),
+            "by": self.limits.metric.name(),
+            "unit": self.limits.metric.unit(),
             "band_nm": target.spectrum.as_ref().map(SpectralTarget::band_nm),
-            "tolerance": self.request.tolerance,
+            "tolerance": self.limits.tolerance,
             "tolerance_origin": self.tolerance_origin.name(),
             "recipes": recipes,
             "by_cie1976": by_cie1976,
@@ -285,7 +293,7 @@ impl RecipeSearch<'_> {
         if !recipe.metamerism.is_empty() {
             entry["metamerism"] = self.metamerism(recipe);
         }
-        if self.request.film != FilmKind::Hiding {
+        if self.limits.film != FilmKind::Hiding {
             entry["thickness"] = json!(recipe.thickness);
         }
         if let Some(cost) = recipe.cost {
@@ -304,9 +312,9 @@ impl RecipeSearch<'_> {
         }
     }
 
-    /// Names of the lights, in the order of the request.
+    /// Names of the lights, in the order of the limits.
     pub fn lights(&self) -> impl Iterator<Item = &str> {
-        self.request.conditions.iter().map(|condition| condition.viewing.illuminant.name())
+        self.limits.conditions.iter().map(|condition| condition.viewing.illuminant.name())
     }
 
     fn is_absolute(&self) -> bool {
@@ -341,9 +349,9 @@ fn displayed(lab: Lab) -> Rgb {
 mod tests {
     use super::*;
 
-    fn search(target: &str, options: MatchOptions) -> RecipeMatches {
+    fn search(target: &str, request: MatchRequest) -> RecipeMatches {
         let oils = PigmentLibrary::van_gogh_oils();
-        oils.recipes_for(&target.parse().unwrap(), &options).unwrap()
+        request.run(&oils, &target.parse().unwrap(), &Task::default()).unwrap()
     }
 
     #[test]
@@ -354,7 +362,7 @@ mod tests {
         ] {
             let only = names.iter().map(|name| (*name).to_owned()).collect();
             let tolerance = Some(0.05);
-            let found = search(target, MatchOptions { only, tolerance, ..MatchOptions::default() });
+            let found = search(target, MatchRequest { only, tolerance, ..MatchRequest::default() });
             assert!(found.nearest() < known, "{target}: {}", found.nearest());
             assert!(found.recipes[0].distance < known + 0.05, "{target}");
         }
@@ -364,7 +372,7 @@ mod tests {
     fn the_nearest_is_reported_though_the_list_stops_within_the_tolerance() {
         let of = |tolerance: f64| {
             let tolerance = Some(tolerance);
-            search("45,10,20", MatchOptions { tolerance, count: 1, ..MatchOptions::default() })
+            search("45,10,20", MatchRequest { tolerance, count: 1, ..MatchRequest::default() })
         };
         let fine = of(0.0);
         let coarse = of(2.0);
@@ -376,26 +384,26 @@ mod tests {
     #[test]
     fn the_tolerance_follows_the_error_of_the_library() {
         let mut oils = PigmentLibrary::van_gogh_oils();
-        let plain = MatchOptions::default();
+        let plain = MatchRequest::default();
         let error = oils.mean_error().unwrap();
         assert!(error > 1.0, "{error}");
         assert_eq!(tolerance_of(&oils, &plain), (error, ToleranceOrigin::Library));
-        let given = MatchOptions { tolerance: Some(0.2), ..plain.clone() };
+        let given = MatchRequest { tolerance: Some(0.2), ..plain.clone() };
         assert_eq!(tolerance_of(&oils, &given), (0.2, ToleranceOrigin::Given));
         oils.evidence = None;
         assert_eq!(tolerance_of(&oils, &plain), (USUAL_TOLERANCE, ToleranceOrigin::Usual));
     }
 
-    fn tolerance_of(library: &PigmentLibrary, options: &MatchOptions) -> (f64, ToleranceOrigin) {
+    fn tolerance_of(library: &PigmentLibrary, options: &MatchRequest) -> (f64, ToleranceOrigin) {
         let search = library.recipe_search(options).unwrap();
-        (search.request.tolerance, search.tolerance_origin)
+        (search.limits.tolerance, search.tolerance_origin)
     }
 
     #[test]
     fn the_plain_recipe_comes_before_one_of_four_that_the_library_cannot_tell_apart() {
         let target = "61.2,0.3,-44.5";
-        let fine = search(target, MatchOptions { tolerance: Some(0.0), ..MatchOptions::default() });
-        let usual = search(target, MatchOptions::default());
+        let fine = search(target, MatchRequest { tolerance: Some(0.0), ..MatchRequest::default() });
+        let usual = search(target, MatchRequest::default());
         assert!(
             pigment_count(&fine) > 2 && pigment_count(&usual) == 2,
             "{} and {}",

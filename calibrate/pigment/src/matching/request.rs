@@ -1,405 +1,554 @@
-//! A request for recipes. You give pigments by their places in a library, and the film that a recipe makes.
-//! You also find here the reasons why there are no recipes.
+//! Options of a search for recipes with pigments given by name, and the prices that put the cheapest of equally
+//! near recipes first.
 
-use documents::Cancelled;
+use std::path::Path;
+
+use documents::file::{FileError, read};
 use documents::hint::Explain;
-use spectra::InterpolateError;
+use documents::request::{RequestError, from_text, refused};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::ser::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde_json::json;
+use spectra::csv_table::RowNumbers;
 
+use super::limits::{
+    FilmKind, MatchError, RecipeLimits, RequiredPigment, Thickness, USUAL_SPECTRUM_TOLERANCE,
+    USUAL_TOLERANCE,
+};
 use super::target::{Metric, ViewingCondition};
-use crate::color::{BackingError, THICKEST};
-use crate::evaluate::BandError;
-use crate::least_squares::MAX_PIGMENTS;
-use crate::library::{AmountKind, PigmentLibrary, RecipeError};
+use crate::color::{Backing, BackingError, THICKEST};
+use crate::evaluate::{Remark, check_visible_band};
+use crate::library::{AmountKind, PigmentLibrary};
 use crate::recipe::PigmentId;
 
-/// Greatest weight of a viewing condition.
-const LARGEST_WEIGHT: f64 = 1e9;
-/// Range of whole parts of one recipe.
-const WHOLE_PARTS: std::ops::RangeInclusive<u32> = 1..=1000;
-/// K d + S d, averaged over pigments and wavelengths, of the usual wash lies in this range, from nearly
-/// clear to nearly hiding. We chose it by eye.
-const USUAL_WASH: [f64; 2] = [0.01, 10.0];
-
-/// Recipes within this CIEDE2000 are equally near, if we know nothing about the library's own error.
-pub const USUAL_TOLERANCE: f64 = 0.05;
-
-/// Recipes within this root mean square in percent of reflectance are equally near by spectrum. We chose it
-/// by eye.
-pub const USUAL_SPECTRUM_TOLERANCE: f64 = 0.2;
-
-/// A pigment that every recipe must contain.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RequiredPigment {
-    /// Pigment of the library.
-    pub pigment: PigmentId,
+/// A pigment that every recipe must contain, by name. JSON may hold the name alone.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(from = "RequiredForm")]
+pub struct RequiredName {
+    /// Name of the pigment.
+    pub name: String,
     /// Fixed share of the whole, above 0 and up to 1. `None` if the search chooses it.
     pub share: Option<f64>,
 }
 
-/// Limits of the recipes that you search. You give pigments by their places in a library.
-///
-/// Use [`MatchOptions`](super::MatchOptions) to state this by name.
-#[derive(Debug, Clone, PartialEq)]
-pub struct MatchRequest {
-    /// Lights under which recipes are judged, at least one.
-    pub conditions: Vec<ViewingCondition>,
-    /// Measure of the difference from the target.
-    pub metric: Metric,
-    /// Film that the recipe will make.
-    pub film: FilmKind,
-    /// Pigments that may take part.
-    pub allowed: Vec<PigmentId>,
-    /// Pigments that must take part. Each must also be allowed.
-    pub required: Vec<RequiredPigment>,
-    /// Most pigments of one recipe, 1 to 8.
-    pub at_most: usize,
-    /// Least share of a pigment that takes part, 0 to below 1. It is the smallest share that you can weigh
-    /// or cut off with a knife.
-    pub least_share: f64,
-    /// Most parts of a recipe in whole parts, 1 to 1000. `None` for shares of any size.
-    pub whole_parts: Option<u32>,
-    /// Least and greatest absolute amount of each pigment of the library, above 0. `None` for any amount.
-    /// Empty for no limits. If you fix a share, it has no limit.
-    pub amounts: Vec<Option<[f64; 2]>>,
-    /// Price of one unit of amount by pigment of the library, 0 and up, empty if unknown.
-    pub costs: Vec<f64>,
-    /// Recipes count as equally near if their distance exceeds the nearest one's by no more than this. 0 to
-    /// 1000, in the unit of the metric.
-    pub tolerance: f64,
-    /// Number of recipes to return.
-    pub count: usize,
+/// A required pigment in JSON.
+#[derive(Deserialize, JsonSchema)]
+#[serde(untagged)]
+enum RequiredForm {
+    /// Its name; the search chooses the share.
+    Name(String),
+    /// Its name and share.
+    Shared {
+        name: String,
+        #[serde(default)]
+        share: Option<f64>,
+    },
 }
 
-impl MatchRequest {
-    /// Request with all identified pigments of `library`, up to four in a recipe, shares from 1/50,
-    /// amounts as they were measured, and five recipes.
+impl From<RequiredForm> for RequiredName {
+    fn from(form: RequiredForm) -> Self {
+        match form {
+            RequiredForm::Name(name) => Self { name, share: None },
+            RequiredForm::Shared { name, share } => Self { name, share },
+        }
+    }
+}
+
+/// Origin of the tolerance of a search.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ToleranceOrigin {
+    /// The options state it.
+    Given,
+    /// It is the mean error of the library's fit: recipes that differ by less are equally good.
+    Library,
+    /// It is the usual one of the metric: the library records no error, or a smaller one.
+    Usual,
+}
+
+impl ToleranceOrigin {
+    /// Name in files.
     #[must_use]
-    pub fn new(
-        library: &PigmentLibrary,
-        conditions: Vec<ViewingCondition>,
-        film: FilmKind,
-    ) -> Self {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Given => "given",
+            Self::Library => "library",
+            Self::Usual => "usual",
+        }
+    }
+}
+
+/// Options of a search for recipes, which every program fills in its own way. [`Self::run`] searches. Comments of
+/// the fields are the help texts of the command line and the descriptions of the schema.
+///
+/// ```
+/// use pigment::MatchRequest;
+///
+/// let request = MatchRequest { at_most: 3, whole_parts: Some(12), ..MatchRequest::default() };
+/// assert_eq!(request.count, 5);
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(description = "Options of a search for recipes")]
+pub struct MatchRequest {
+    /// Match the color under the lights, or the spectrum of a measured target
+    #[serde(rename = "by")]
+    pub metric: Metric,
+    /// Use only these pigments (may be repeated) [default: all whose S is known]
+    pub only: Vec<String>,
+    /// A pigment that every recipe must contain, with a share if that is fixed (may be repeated)
+    pub with: Vec<RequiredName>,
+    /// A pigment that no recipe may contain (may be repeated)
+    pub without: Vec<String>,
+    /// Maximum number of pigments of a recipe, 1 to 8
+    pub at_most: usize,
+    /// Minimum share of each pigment of a recipe, such as 0.02 or 1/50, about the least that a
+    /// palette knife can cut off
+    #[serde(deserialize_with = "read_share")]
+    #[schemars(schema_with = "text_or_number")]
+    pub least_share: f64,
+    /// Give recipes in whole parts whose sum is at most N
+    pub whole_parts: Option<u32>,
+    /// Total mass of the mixture in grams; amounts are then by mass
+    pub grams: Option<f64>,
+    /// Price of one gram (or one unit of absolute amounts), NAME=PRICE, in any currency (may be
+    /// repeated), or a CSV with the columns pigment and price
+    #[schemars(with = "Vec<String>")]
+    pub prices: PriceList,
+    /// Difference within which recipes count as equally near, in CIEDE2000 [default: the mean error of
+    /// the library's fit, or 0.05 if it records none]; by spectrum in % of reflectance [default: 0.2]
+    pub tolerance: Option<f64>,
+    /// Allow absolute amounts outside the range that was measured of each pigment
+    pub beyond_measured: bool,
+    /// Number of recipes to show for each target
+    pub count: usize,
+    /// Thickness of the film, or LEAST:MOST to let the search choose; 1 is where the reference white
+    /// has S d = 1 (for absolute amounts, all amounts together) [default: hiding; for absolute
+    /// amounts from nearly clear to nearly hiding]
+    #[serde(serialize_with = "write_thickness", deserialize_with = "read_thickness")]
+    #[schemars(schema_with = "text_or_numbers")]
+    pub thickness: Option<Thickness>,
+    /// Measured reflectance of the ground, as in `mix` [default: white]
+    #[serde(serialize_with = "write_ground", deserialize_with = "read_ground")]
+    #[schemars(schema_with = "text_or_number")]
+    pub over: Option<Backing>,
+    /// Lights under which recipes are judged, each once, with their weights. When matching by spectrum they
+    /// only tell the differences.
+    pub conditions: Vec<ViewingCondition>,
+}
+
+impl Default for MatchRequest {
+    fn default() -> Self {
         Self {
-            conditions,
             metric: Metric::default(),
-            film,
-            allowed: library.ids().filter(|id| library[*id].identified).collect(),
-            required: Vec::new(),
+            only: Vec::new(),
+            with: Vec::new(),
+            without: Vec::new(),
             at_most: 4,
             least_share: 0.02,
             whole_parts: None,
-            amounts: measured_amounts(library),
-            costs: Vec::new(),
-            tolerance: USUAL_TOLERANCE,
+            grams: None,
+            prices: PriceList::default(),
+            tolerance: None,
+            beyond_measured: false,
             count: 5,
+            thickness: None,
+            over: None,
+            conditions: vec![ViewingCondition::default()],
         }
     }
+}
 
-    /// Least and greatest thickness. 1 for a film that hides.
-    pub(super) fn thickness(&self) -> (f64, f64) {
-        match &self.film {
-            FilmKind::Hiding => (1.0, 1.0),
-            FilmKind::Over { thickness, .. } => thickness.bounds(),
-        }
-    }
-
-    /// Fixed share of a pigment. `None` if the search chooses it.
-    fn fixed_share(&self, pigment: PigmentId) -> Option<f64> {
-        self.required.iter().find(|required| required.pigment == pigment)?.share
-    }
-
-    /// Least and greatest share of a pigment that takes part, whatever its amount.
-    pub(super) fn share_bounds(&self, pigment: PigmentId) -> (f64, f64) {
-        let fixed = self.fixed_share(pigment);
-        fixed.map_or((self.least_share, 1.0), |share| (share, share))
-    }
-
-    /// Least and greatest absolute amount of a pigment. `None` for any.
-    pub(super) fn amount_bounds(&self, pigment: PigmentId) -> Option<[f64; 2]> {
-        let limits = self.amounts.get(pigment.index()).copied().flatten();
-        limits.filter(|_| self.fixed_share(pigment).is_none())
-    }
-
-    /// Least and greatest share of a pigment that takes part in a film of this thickness, which is the sum
-    /// of all absolute amounts. If the film allows no share, you get a least one above the greatest.
-    pub(super) fn share_bounds_at(&self, pigment: PigmentId, thickness: f64) -> (f64, f64) {
-        let (least, most) = self.share_bounds(pigment);
-        match self.amount_bounds(pigment) {
-            None => (least, most),
-            Some(amounts) => {
-                let [fewest, greatest] = amounts.map(|amount| amount / thickness);
-                (least.max(fewest), most.min(greatest))
-            }
-        }
-    }
-
+impl MatchRequest {
+    /// Looks up these options in `library`: limits of its recipes, with remarks about the choices that were made.
+    ///
     /// # Errors
-    /// [`MatchError`] if no recipe can meet the request.
-    pub(super) fn check(&self, library: &PigmentLibrary) -> Result<(), MatchError> {
-        if self.allowed.is_empty() {
-            return Err(MatchError::NoPigments);
+    /// [`MatchError`] if a name is unknown, or options exclude each other.
+    pub fn limits(
+        &self,
+        library: &PigmentLibrary,
+    ) -> Result<(RecipeLimits, Vec<Remark>), MatchError> {
+        self.check_lights()?;
+        let mut remarks = Vec::new();
+        let film = self.film(library, &mut remarks)?;
+        let mut limits = RecipeLimits {
+            metric: self.metric,
+            at_most: self.at_most,
+            least_share: self.least_share,
+            whole_parts: self.whole_parts,
+            tolerance: self.tolerance_for(library).0,
+            count: self.count,
+            ..RecipeLimits::new(library, self.conditions.clone(), film)
+        };
+        if self.beyond_measured {
+            limits.amounts.clear();
         }
-        if self.conditions.is_empty() {
-            return Err(MatchError::NoLight);
-        }
-        if let Some(condition) =
-            self.conditions.iter().find(|c| !(c.weight > 0.0 && c.weight < LARGEST_WEIGHT))
-        {
-            return invalid(
-                "a light's weight must be above 0",
-                condition.weight,
-                "give the weight behind the light: [illuminant=D65] [illuminant=A=0.5]",
-            );
-        }
-        if !(1..=MAX_PIGMENTS).contains(&self.at_most) {
-            return invalid("a recipe has 1 to 8 pigments", self.at_most as f64, "try [at_most=4]");
-        }
-        if self.required.len() > self.at_most {
-            return Err(MatchError::TooManyRequired {
-                required: self.required.len(),
-                at_most: self.at_most,
+        self.choose_pigments(library, &mut limits, &mut remarks)?;
+        limits.costs = self.prices.of_library(library, &limits.allowed)?;
+        if self.count == 0 {
+            return Err(MatchError::Number {
+                what: "the number of recipes is 1 or more",
+                value: 0.0,
+                hint: "leave [count] out for 5 recipes",
             });
         }
-        if !(0.0..1.0).contains(&self.least_share) {
-            return invalid(
-                "the least share is 0 or more and below 1",
-                self.least_share,
-                "try [least=1/50]",
-            );
+        remarks.extend(check_visible_band(library.grid)?);
+        Ok((limits, remarks))
+    }
+
+    /// Difference within which recipes of `library` count as equally near, and its origin.
+    #[must_use]
+    pub fn tolerance_for(&self, library: &PigmentLibrary) -> (f64, ToleranceOrigin) {
+        let by_spectrum = self.metric.spectrum_weights().is_some();
+        match (self.tolerance, library.mean_error()) {
+            (Some(given), _) => (given, ToleranceOrigin::Given),
+            (None, _) if by_spectrum => (USUAL_SPECTRUM_TOLERANCE, ToleranceOrigin::Usual),
+            (None, Some(error)) if error > USUAL_TOLERANCE => (error, ToleranceOrigin::Library),
+            (None, _) => (USUAL_TOLERANCE, ToleranceOrigin::Usual),
         }
-        if !(0.0..1e3).contains(&self.tolerance) {
-            return invalid("the tolerance is 0 or more", self.tolerance, "try [tolerance=0.05]");
+    }
+
+    fn check_lights(&self) -> Result<(), MatchError> {
+        let names: Vec<String> = self
+            .conditions
+            .iter()
+            .map(|condition| condition.viewing.illuminant.name().to_owned())
+            .collect();
+        let repeated = (1..names.len()).find(|&at| names[..at].contains(&names[at]));
+        repeated.map_or(Ok(()), |at| Err(MatchError::RepeatedLight { name: names[at].clone() }))
+    }
+
+    fn film(
+        &self,
+        library: &PigmentLibrary,
+        remarks: &mut Vec<Remark>,
+    ) -> Result<FilmKind, MatchError> {
+        if self.thickness.is_none() && library.amounts == AmountKind::Relative {
+            let hidden = self.over.is_some();
+            return if hidden { Err(MatchError::HiddenGround) } else { Ok(FilmKind::Hiding) };
         }
-        if let Some(cost) = self.costs.iter().find(|c| !(c.is_finite() && **c >= 0.0)) {
-            return invalid("a cost is 0 or more", *cost, "try [cost=\"Cobalt Blue=0.9\"]");
+        if self.over.is_none() {
+            let note = Remark::note("over a perfect white");
+            remarks.push(note.with_hint("name the paper or ground with [over]"));
         }
-        let fixed = || self.required.iter().filter_map(|required| required.share);
-        let total: f64 = fixed().sum();
-        let all_fixed =
-            !self.required.is_empty() && self.required.iter().all(|r| r.share.is_some());
-        let whole = total > 1.0 + 1e-9 || (total > 1.0 - 1e-9 && !all_fixed);
-        if whole || fixed().any(|share| !(share > 0.0 && share <= 1.0)) {
-            return Err(MatchError::Shares { total });
+        let (ground, warning) = self.over.clone().unwrap_or_default().on_grid(library.grid)?;
+        remarks.extend(warning);
+        Ok(match self.thickness {
+            None => RecipeLimits::usual_film(library, ground),
+            Some(thickness) => FilmKind::Over { ground, thickness },
+        })
+    }
+
+    /// Sets allowed and required pigments, and remarks on pigments with unknown S.
+    fn choose_pigments(
+        &self,
+        library: &PigmentLibrary,
+        limits: &mut RecipeLimits,
+        remarks: &mut Vec<Remark>,
+    ) -> Result<(), MatchError> {
+        if !self.only.is_empty() {
+            limits.allowed = find_all(library, &self.only)?;
         }
-        if self.whole_parts.is_some() && total > 0.0 {
-            return Err(MatchError::SharesInParts);
+        for RequiredName { name, share } in &self.with {
+            let pigment = library.find(name)?;
+            limits.required.retain(|known| known.pigment != pigment);
+            limits.required.push(RequiredPigment { pigment, share: *share });
+            limits.allowed.push(pigment);
         }
-        if self.whole_parts.is_some_and(|parts| !WHOLE_PARTS.contains(&parts)) {
-            return invalid(
-                "whole parts are 1 to 1000",
-                f64::from(self.whole_parts.unwrap_or(0)),
-                "try [parts=12]",
-            );
+        let without = find_all(library, &self.without)?;
+        let both = limits.required.iter().find(|required| without.contains(&required.pigment));
+        if let Some(RequiredPigment { pigment, .. }) = both {
+            let name = library[*pigment].name.clone();
+            return Err(MatchError::RequiredAndExcluded { name });
         }
-        let (thinnest, thickest) = self.thickness();
-        if !(thinnest > 0.0 && thinnest <= thickest && thickest <= THICKEST) {
-            return invalid("a thickness is above 0", thinnest, "try [thickness=1]");
+        limits.allowed.retain(|pigment| !without.contains(pigment));
+        limits.allowed.sort_unstable();
+        limits.allowed.dedup();
+        let unknown = |allowed: bool| -> Vec<&str> {
+            let of_those = library.ids().filter(|id| {
+                !library[*id].identified
+                    && limits.allowed.contains(id) == allowed
+                    && !without.contains(id)
+            });
+            of_those.map(|id| library[id].name.as_str()).collect()
+        };
+        let used = unknown(true);
+        let left_out = unknown(false);
+        if !used.is_empty() {
+            let text =
+                format!("S is not known of {}; recipes with it are a guess", used.join(", "));
+            remarks.push(Remark::warning(text));
         }
-        let absolute = library.amounts == AmountKind::Absolute;
-        if absolute && self.film == FilmKind::Hiding {
-            return Err(MatchError::AbsoluteHiding);
+        if !left_out.is_empty() && self.only.is_empty() {
+            let text = format!("left out, their S is not known: {}", left_out.join(", "));
+            remarks.push(Remark::note(text));
+        }
+        Ok(())
+    }
+}
+
+pub(super) fn find_all(
+    library: &PigmentLibrary,
+    names: &[String],
+) -> Result<Vec<PigmentId>, MatchError> {
+    names.iter().map(|name| Ok(library.find(name)?)).collect()
+}
+
+/// Reads a share from 0 to 1, written as a number or as a fraction such as 1/50.
+///
+/// # Errors
+/// [`RequestError`] for any other text. Its hint is for the key `setting`.
+pub fn parse_share(text: &str, setting: &str) -> Result<f64, RequestError> {
+    let number = |text: &str| text.trim().parse::<f64>().ok();
+    let value = match text.split_once('/') {
+        Some((numerator, denominator)) => {
+            number(numerator).zip(number(denominator)).map(|(n, d)| n / d)
+        }
+        None => number(text),
+    };
+    value.filter(|value| (0.0..=1.0).contains(value)).ok_or_else(|| {
+        let example = if setting == "with" { "NAME=" } else { "" };
+        RequestError::value(
+            format!("takes a share from 0 to 1, found `{text}`"),
+            format!("try [{setting}={example}0.25] or a fraction such as 1/4"),
+        )
+    })
+}
+
+fn read_share<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    from_text(deserializer, |text| parse_share(text, "least"))
+}
+
+fn write_thickness<S: Serializer>(
+    thickness: &Option<Thickness>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    match thickness {
+        None => serializer.serialize_none(),
+        Some(Thickness::Fixed(thickness)) => serializer.serialize_f64(*thickness),
+        Some(Thickness::Between(least, most)) => [least, most].serialize(serializer),
+    }
+}
+
+fn read_thickness<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Option<Thickness>, D::Error> {
+    from_text(deserializer, |text| {
+        let number = |text: &str| text.parse::<f64>().ok().filter(|t| *t > 0.0 && *t <= THICKEST);
+        let thickness = match text.split_once([':', ',']) {
+            Some((least, most)) => number(least)
+                .zip(number(most))
+                .filter(|(least, most)| least < most)
+                .map(|(least, most)| Thickness::Between(least, most)),
+            None => number(text).map(Thickness::Fixed),
+        };
+        let refused = || {
+            RequestError::value(
+                format!("takes T or LEAST:MOST, above 0 and up to 1e9, found `{text}`"),
+                "try [thickness=1] or [thickness=0.2:3]",
+            )
+        };
+        thickness.ok_or_else(refused).map(Some)
+    })
+}
+
+fn write_ground<S: Serializer>(over: &Option<Backing>, serializer: S) -> Result<S::Ok, S::Error> {
+    match over {
+        None => serializer.serialize_none(),
+        Some(Backing::Even(reflectance)) => serializer.serialize_f64(*reflectance),
+        Some(Backing::Measured(_)) => Err(S::Error::custom("a measured ground has no text")),
+    }
+}
+
+fn read_ground<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Backing>, D::Error> {
+    from_text(deserializer, |text| {
+        text.parse().map(Some).map_err(|error: BackingError| RequestError::of(&error))
+    })
+}
+
+fn text_or_number(_: &mut SchemaGenerator) -> Schema {
+    json_schema!({ "anyOf": [{ "type": "string" }, { "type": "number" }] })
+}
+
+fn text_or_numbers(_: &mut SchemaGenerator) -> Schema {
+    let two =
+        json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 });
+    json_schema!({ "anyOf": [{ "type": "string" }, { "type": "number" }, two] })
+}
+
+/// Prices of one unit of amount (for example a gram) of pigments by name, in any currency. JSON holds texts
+/// `NAME=PRICE`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PriceList {
+    entries: Vec<Entry>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Entry {
+    pigment: String,
+    price: f64,
+    /// File and row, for errors. `None` for a price that was set by a call.
+    place: Option<String>,
+}
+
+impl Serialize for PriceList {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let text = |entry: &Entry| format!("{}={}", entry.pigment, entry.price);
+        serializer.collect_seq(self.entries.iter().map(text))
+    }
+}
+
+impl<'de> Deserialize<'de> for PriceList {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let mut prices = Self::default();
+        for text in Vec::<String>::deserialize(deserializer)? {
+            prices.add_text(&text).map_err(|error| refused(RequestError::of(&error)))?;
+        }
+        Ok(prices)
+    }
+}
+
+impl PriceList {
+    /// Adds a price that stands as `NAME=PRICE`.
+    ///
+    /// # Errors
+    /// [`PriceError`] for any other text.
+    pub fn add_text(&mut self, text: &str) -> Result<(), PriceError> {
+        let (name, price) = text.rsplit_once('=').unwrap_or((text, ""));
+        self.set(name, parse_price(price, text)?)
+    }
+
+    /// Whether the list holds no price.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
+    /// Sets the price of a pigment. A later price of one pigment replaces an earlier one.
+    ///
+    /// # Errors
+    /// [`PriceError::Price`] unless the price is a finite number of 0 and up.
+    pub fn set(&mut self, pigment: impl Into<String>, price: f64) -> Result<(), PriceError> {
+        let pigment = pigment.into();
+        if !(price.is_finite() && price >= 0.0) {
+            return Err(PriceError::Price { place: pigment, text: price.to_string() });
+        }
+        self.entries.push(Entry { pigment, price, place: None });
+        Ok(())
+    }
+
+    /// Adds the prices of a CSV file with the columns `pigment` and `price`.
+    ///
+    /// # Errors
+    /// [`PriceError`] with the row.
+    pub fn add_file(&mut self, path: impl AsRef<Path>) -> Result<(), PriceError> {
+        let path = path.as_ref();
+        let bytes = read(path)?;
+        self.add_csv(&path.display().to_string(), &bytes)
+    }
+
+    /// Adds the prices of `bytes`, the content of a CSV file with the columns `pigment` and `price`.
+    ///
+    /// # Errors
+    /// [`PriceError`] with the row.
+    pub fn add_csv(&mut self, file: &str, bytes: &[u8]) -> Result<(), PriceError> {
+        let broken = |reason: csv::Error| PriceError::Table { file: file.to_owned(), reason };
+        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(bytes);
+        let headers = reader.headers().map_err(broken)?.clone();
+        let pigment = header_column(file, &headers, "pigment")?;
+        let price = header_column(file, &headers, "price")?;
+        let mut numbers = RowNumbers::of(bytes);
+        for record in reader.records() {
+            let record = record.map_err(broken)?;
+            let row = numbers.at(record.position().map_or(0, csv::Position::byte));
+            let place = format!("{file}, row {row}");
+
+            let price = parse_price(record.get(price).unwrap_or_default(), &place)?;
+            let pigment = record.get(pigment).unwrap_or_default().to_owned();
+            self.entries.push(Entry { pigment, price, place: Some(place) });
         }
         Ok(())
     }
 
-    /// Usual film of `library`. It hides its ground. For absolute amounts it is a wash over `ground` from
-    /// nearly clear to nearly hiding: the mean of K + S over pigments and wavelengths, times the thickness,
-    /// is 0.01 to 10.
-    #[must_use]
-    pub fn usual_film(library: &PigmentLibrary, ground: Vec<f64>) -> FilmKind {
-        if library.amounts == AmountKind::Relative {
-            return FilmKind::Hiding;
+    /// Price of each pigment of `library`, 0 where none is known. Empty for an empty list.
+    ///
+    /// # Errors
+    /// [`MatchError::NoPrice`] if one of `needed` has no price, [`MatchError::PricedPigment`] or
+    /// [`MatchError::Recipe`] for a name that is not in the library.
+    pub(super) fn of_library(
+        &self,
+        library: &PigmentLibrary,
+        needed: &[PigmentId],
+    ) -> Result<Vec<f64>, MatchError> {
+        if self.is_empty() {
+            return Ok(Vec::new());
         }
-        let curves = library.pigments.iter().flat_map(|p| p.absorption.iter().zip(&p.scattering));
-        let count = (library.pigments.len() * library.grid.count()) as f64;
-        let mean = (curves.map(|(k, s)| k + s).sum::<f64>() / count).max(1e-9);
-        let [clear, hiding] = USUAL_WASH;
-        FilmKind::Over { ground, thickness: Thickness::Between(clear / mean, hiding / mean) }
-    }
-}
-
-fn invalid(what: &'static str, value: f64, hint: &'static str) -> Result<(), MatchError> {
-    Err(MatchError::Number { what, value, hint })
-}
-
-/// Measured amounts of each pigment of a library of absolute amounts, empty for others.
-fn measured_amounts(library: &PigmentLibrary) -> Vec<Option<[f64; 2]>> {
-    match library.amounts {
-        AmountKind::Relative => Vec::new(),
-        AmountKind::Absolute => library.pigments.iter().map(|p| p.measured_amounts).collect(),
-    }
-}
-
-/// Film that a recipe will make.
-#[derive(Debug, Clone, PartialEq)]
-pub enum FilmKind {
-    /// So thick that its ground does not show.
-    Hiding,
-    /// A film over a ground.
-    Over {
-        /// Measured reflectance of the bare ground on the library's grid.
-        ground: Vec<f64>,
-        /// Thickness, or a range in which the search chooses it.
-        thickness: Thickness,
-    },
-}
-
-/// Thickness of a film in the library's unit. At 1 the reference white has S d = 1. For absolute amounts
-/// this is the sum of all amounts.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Thickness {
-    /// This thickness, above 0.
-    Fixed(f64),
-    /// The search chooses within this range, least to greatest.
-    Between(f64, f64),
-}
-
-impl Thickness {
-    /// Least and greatest thickness.
-    #[must_use]
-    pub fn bounds(self) -> (f64, f64) {
-        match self {
-            Self::Fixed(thickness) => (thickness, thickness),
-            Self::Between(least, most) => (least, most),
+        let mut found: Vec<Option<f64>> = vec![None; library.pigments.len()];
+        for Entry { pigment, price, place } in &self.entries {
+            let id = library.find(pigment).map_err(|error| match place {
+                Some(place) => MatchError::PricedPigment { place: place.clone(), error },
+                None => MatchError::Recipe(error),
+            })?;
+            found[id.index()] = Some(*price);
         }
+        let missing = needed.iter().filter(|id| found[id.index()].is_none());
+        let missing: Vec<String> = missing.map(|id| library[*id].name.clone()).collect();
+        if !missing.is_empty() {
+            return Err(MatchError::NoPrice { pigments: missing });
+        }
+        Ok(found.into_iter().map(|price| price.unwrap_or(0.0)).collect())
     }
 }
 
-/// A request for recipes that we cannot meet.
-#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
-#[fault(Setting)]
-pub enum MatchError {
-    /// The search was asked to end before its time.
+fn header_column(
+    file: &str,
+    headers: &csv::StringRecord,
+    column: &'static str,
+) -> Result<usize, PriceError> {
+    let found = headers.iter().position(|header| header.eq_ignore_ascii_case(column));
+    found.ok_or_else(|| PriceError::MissingColumn { file: file.to_owned(), column })
+}
+
+/// Reads a price from `text`, which stands at `place`.
+///
+/// # Errors
+/// [`PriceError::Price`] unless it is a finite number of 0 and up.
+pub fn parse_price(text: &str, place: &str) -> Result<f64, PriceError> {
+    let price = text.trim().parse().ok().filter(|price: &f64| price.is_finite() && *price >= 0.0);
+    price.ok_or_else(|| PriceError::Price { place: place.to_owned(), text: text.trim().to_owned() })
+}
+
+/// Prices that cannot be used.
+#[derive(Debug, thiserror::Error, Explain)]
+pub enum PriceError {
+    /// The file cannot be read.
     #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-    /// No pigment may take part.
-    #[error("no pigment is left to mix with")]
-    #[hint("allow more of the library's pigments")]
-    NoPigments,
-    /// The request names no light.
-    #[error("a recipe is judged under at least one light")]
-    NoLight,
-    /// One light is named twice.
-    #[error("the light {name} is given twice")]
-    #[hint("give each light once, with its weight: [illuminant=D65=2] [illuminant=A]")]
-    RepeatedLight {
-        /// Name of the light.
-        name: String,
-    },
-    /// A number of the request is out of range.
-    #[error("{what}, found `{value}`")]
-    #[hint("{hint}")]
-    Number {
-        /// Description of the allowed range.
-        what: &'static str,
-        /// Number that was given.
-        value: f64,
-        /// Advice, with the setting in square brackets.
-        hint: &'static str,
-    },
-    /// More pigments are required than a recipe may have.
-    #[error("{required} pigments must take part, but a recipe has `{at_most}` at most")]
-    #[hint("raise [at_most], or require fewer pigments")]
-    TooManyRequired {
-        /// Number of required pigments.
-        required: usize,
-        /// Most pigments of a recipe.
-        at_most: usize,
-    },
-    /// One pigment is both required and excluded.
-    #[error("{name} is both required and excluded")]
-    #[hint("name it in one of [with] and [without] only")]
-    RequiredAndExcluded {
-        /// Name of the pigment.
-        name: String,
-    },
-    /// Fixed shares leave nothing for the other pigments, or exceed the whole.
-    #[error(
-        "fixed shares are above 0 and leave room for the other pigments, found a sum of `{total}`"
-    )]
-    #[hint("let fixed shares sum to less than 1")]
-    Shares {
-        /// Sum of all fixed shares.
-        total: f64,
-    },
-    /// Recipes in whole parts cannot have fixed shares.
-    #[error("recipes in whole parts take no fixed shares")]
-    #[hint("leave out [parts], or the share of the pigment")]
-    SharesInParts,
-    /// A film that hides is requested from a library of absolute amounts, which needs a film over a ground.
-    #[error("a library of absolute amounts makes films over a ground")]
-    #[hint("give a [thickness]")]
-    AbsoluteHiding,
-    /// A batch is corrected with a library of absolute amounts, which holds no masses.
-    #[error("a batch is corrected by shares, and this library's amounts are absolute")]
-    #[hint("use a library of relative amounts, fitted to films that hide")]
-    AbsoluteBatch,
-    /// A ground is given, but the film hides it.
-    #[error("a film that hides shows no ground")]
-    #[hint("give [over] a [thickness], such as 1 or 0.2:3")]
-    HiddenGround,
-    /// A search by spectrum was asked for a target that is only a colour.
-    #[error("a match by spectrum needs a measured spectrum, and `{name}` is only a colour")]
-    #[hint("give the file of its reading, FILE or FILE#SAMPLE, or match by colour: [by=color]")]
-    NoSpectrum {
-        /// Name of the target.
-        name: String,
-    },
-    /// A target was not measured where the library was.
-    #[error(
-        "`{name}` was measured from {} to {} nm, the library from {} to {} nm: they share no band",
-        target_nm[0], target_nm[1], library_nm[0], library_nm[1]
-    )]
-    #[hint("measure the target over the band of the library")]
-    #[fault(Input)]
-    NoSharedBand {
-        /// Name of the target.
-        name: String,
-        /// First and last wavelength of the target in nm.
-        target_nm: [f64; 2],
-        /// First and last wavelength of the library in nm.
-        library_nm: [f64; 2],
-    },
-    /// No recipe lies within the limits of the request.
-    #[error("no recipe fits inside these limits")]
-    #[hint(
-        "allow more pigments ([at_most]), more parts ([parts]), a smaller [least], or amounts that were \
-         not measured ([beyond_measured])"
-    )]
-    #[fault(Input)]
-    NoRecipe,
-    /// A pigment's name is not in the library.
-    #[error(transparent)]
-    #[fault(Input)]
-    Recipe(#[from] RecipeError),
-    /// A row of a price list names no pigment of the library.
-    #[error("{place}, column `pigment`")]
-    #[hint(inner)]
-    #[fault(Input)]
-    PricedPigment {
-        /// File and row.
-        place: String,
-        /// Reason why the name denotes no pigment.
+    File(#[from] FileError),
+    /// The file is not a CSV table.
+    #[error("{file}: no table of prices")]
+    Table {
+        /// File name as the caller gave it.
+        file: String,
+        /// Message of the CSV parser.
         #[source]
-        error: RecipeError,
+        reason: csv::Error,
     },
-    /// Pigments that may take part have no price, while others have one.
-    #[error("no price for {}", pigments.join(", "))]
-    #[hint("price every pigment that may take part, or leave some out with [without] or [only]")]
-    #[fault(Input)]
-    NoPrice {
-        /// Names of these pigments.
-        pigments: Vec<String>,
+    /// A column is missing.
+    #[error("{file}, row 1: no column `{column}`")]
+    #[hint("the first row is `pigment,price`; commas separate the columns")]
+    MissingColumn {
+        /// File name as the caller gave it.
+        file: String,
+        /// Name of the column.
+        column: &'static str,
     },
-    /// The ground cannot be used.
-    #[error(transparent)]
-    Backing(#[from] BackingError),
-    /// The library or the target has no visible wavelength.
-    #[error(transparent)]
-    #[fault(Input)]
-    Band(#[from] BandError),
-    /// The target's spectrum cannot be interpolated.
-    #[error(transparent)]
-    #[fault(Input)]
-    Interpolate(#[from] InterpolateError),
+    /// A price is not a number of 0 and up.
+    #[error("{place}: expected a price of 0 or more, found `{text}`")]
+    #[hint("numbers take a decimal point, without a currency")]
+    Price {
+        /// File and row, or the text that states the price.
+        place: String,
+        /// Text of the price.
+        text: String,
+    },
 }

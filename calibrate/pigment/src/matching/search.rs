@@ -8,7 +8,7 @@ use documents::Steps;
 use rayon::prelude::*;
 
 use super::forward::{Forward, Scratch};
-use super::request::MatchRequest;
+use super::limits::RecipeLimits;
 use super::target::Target;
 use crate::least_squares::{Bounds, Cost, UNKNOWNS, descend_within_bounds};
 use crate::recipe::PigmentId;
@@ -25,13 +25,13 @@ const MOST_SETS: usize = 30_000;
 /// `steps`, about [`expected`] in all. If you cancel the search, it has not tried all sets.
 pub(super) fn search(
     forward: &Forward<'_>,
-    request: &MatchRequest,
+    limits: &RecipeLimits,
     target: &Target,
     steps: &Steps,
 ) -> Vec<Candidate> {
     let strength = strengths(forward);
     let mut found: Vec<Candidate> = Vec::new();
-    let mut sets = first_sets(request);
+    let mut sets = first_sets(limits);
     let mut size = sets.keys().next().map_or(0, Vec::len);
     loop {
         let tried: Vec<(Vec<PigmentId>, Option<Candidate>)> = sets
@@ -41,15 +41,15 @@ pub(super) fn search(
                     return (set.clone(), None);
                 }
                 steps.step();
-                let starts = starts(request, set, parent.as_ref(), &strength);
+                let starts = starts(limits, set, parent.as_ref(), &strength);
                 let ends =
-                    starts.iter().filter_map(|s| descend(forward, request, target, s, scratch));
+                    starts.iter().filter_map(|s| descend(forward, limits, target, s, scratch));
                 (set.clone(), ends.min_by(|a, b| a.distance.total_cmp(&b.distance)))
             })
             .collect();
         size += 1;
-        let goes_on = size <= request.at_most && !steps.task().is_cancelled();
-        let grown = if goes_on { grown(request, &tried) } else { BTreeMap::new() };
+        let goes_on = size <= limits.at_most && !steps.task().is_cancelled();
+        let grown = if goes_on { grown(limits, &tried) } else { BTreeMap::new() };
         found.extend(tried.into_iter().filter_map(|(_, candidate)| candidate));
         if grown.is_empty() {
             break;
@@ -59,8 +59,8 @@ pub(super) fn search(
     // Beyond the gamut the distance has several minima, many of them near one pigment.
     if found.iter().all(|candidate| candidate.distance > FAR) && !steps.task().is_cancelled() {
         found.par_iter_mut().for_each_init(Scratch::default, |scratch, candidate| {
-            for corner in corners(request, &candidate.pigments) {
-                let end = descend(forward, request, target, &corner, scratch);
+            for corner in corners(limits, &candidate.pigments) {
+                let end = descend(forward, limits, target, &corner, scratch);
                 if let Some(end) = end.filter(|end| end.distance < candidate.distance) {
                     *candidate = end;
                 }
@@ -74,10 +74,10 @@ pub(super) fn search(
 }
 
 /// We will try this many sets. The number is doubled if we also round each to whole parts.
-pub(super) fn expected(request: &MatchRequest) -> usize {
-    let fixed = request.required.len();
-    let free = request.allowed.len() - fixed.min(request.allowed.len());
-    let sizes = usize::from(fixed == 0)..=request.at_most.saturating_sub(fixed);
+pub(super) fn expected(limits: &RecipeLimits) -> usize {
+    let fixed = limits.required.len();
+    let free = limits.allowed.len() - fixed.min(limits.allowed.len());
+    let sizes = usize::from(fixed == 0)..=limits.at_most.saturating_sub(fixed);
     sizes
         .map(|added| {
             let sets = (0..added)
@@ -85,30 +85,30 @@ pub(super) fn expected(request: &MatchRequest) -> usize {
             sets.min(MOST_SETS)
         })
         .sum::<usize>()
-        * if request.whole_parts.is_some() { 2 } else { 1 }
+        * if limits.whole_parts.is_some() { 2 } else { 1 }
 }
 
 type Sets = BTreeMap<Vec<PigmentId>, Option<Candidate>>;
 
 /// We start from these sets: all required pigments together, or every pigment by itself if you require
 /// none.
-fn first_sets(request: &MatchRequest) -> Sets {
-    let mut required: Vec<PigmentId> = request.required.iter().map(|r| r.pigment).collect();
+fn first_sets(limits: &RecipeLimits) -> Sets {
+    let mut required: Vec<PigmentId> = limits.required.iter().map(|r| r.pigment).collect();
     required.sort_unstable();
     required.dedup();
     if required.is_empty() {
-        return request.allowed.iter().map(|&pigment| (vec![pigment], None)).collect();
+        return limits.allowed.iter().map(|&pigment| (vec![pigment], None)).collect();
     }
     BTreeMap::from([(required, None)])
 }
 
 /// Every set with one pigment more, each with its nearest smaller recipe.
-fn grown(request: &MatchRequest, tried: &[(Vec<PigmentId>, Option<Candidate>)]) -> Sets {
+fn grown(limits: &RecipeLimits, tried: &[(Vec<PigmentId>, Option<Candidate>)]) -> Sets {
     let mut parents: Vec<_> = tried.iter().collect();
     parents.sort_by(|a, b| distance(&a.1).total_cmp(&distance(&b.1)).then_with(|| a.0.cmp(&b.0)));
     let mut sets = BTreeMap::new();
     for (set, candidate) in parents {
-        for &pigment in request.allowed.iter().filter(|pigment| !set.contains(pigment)) {
+        for &pigment in limits.allowed.iter().filter(|pigment| !set.contains(pigment)) {
             if sets.len() >= MOST_SETS {
                 return sets;
             }
@@ -147,42 +147,42 @@ fn strengths(forward: &Forward<'_>) -> Vec<f64> {
 /// Starting points for the descent of a set: the smaller recipe with a small share of the new pigment, and
 /// shares inversely proportional to the pigments' strengths. Empty if the bounds allow no recipe.
 fn starts(
-    request: &MatchRequest,
+    limits: &RecipeLimits,
     set: &[PigmentId],
     parent: Option<&Candidate>,
     strength: &[f64],
 ) -> Vec<Candidate> {
-    let (thinnest, thickest) = request.thickness();
+    let (thinnest, thickest) = limits.thickness();
     let middle = (thinnest * thickest).sqrt();
     let even: Vec<f64> = set.iter().map(|&p| 1.0 / strength[p.index()]).collect();
     let mut starts: Vec<Candidate> = Vec::new();
     if let Some(parent) = parent {
         let wished: Vec<f64> = set.iter().map(|&p| parent.share(p).max(ENTRY_SHARE)).collect();
-        starts.extend(candidate(request, set, &wished, parent.thickness));
+        starts.extend(candidate(limits, set, &wished, parent.thickness));
     }
-    starts.extend(candidate(request, set, &even, middle));
+    starts.extend(candidate(limits, set, &even, middle));
     starts
 }
 
 /// Starting points at which one pigment of the set has as much as the bounds allow.
-fn corners(request: &MatchRequest, set: &[PigmentId]) -> Vec<Candidate> {
-    let (thinnest, thickest) = request.thickness();
+fn corners(limits: &RecipeLimits, set: &[PigmentId]) -> Vec<Candidate> {
+    let (thinnest, thickest) = limits.thickness();
     set.iter()
         .filter_map(|main| {
             let wished: Vec<f64> = set.iter().map(|p| f64::from(u8::from(p == main))).collect();
-            candidate(request, set, &wished, (thinnest * thickest).sqrt())
+            candidate(limits, set, &wished, (thinnest * thickest).sqrt())
         })
         .collect()
 }
 
 /// Shares within their bounds, as near to the proportions of `wished` as those allow.
 fn candidate(
-    request: &MatchRequest,
+    limits: &RecipeLimits,
     set: &[PigmentId],
     wished: &[f64],
     thickness: f64,
 ) -> Option<Candidate> {
-    let bounds: Vec<(f64, f64)> = set.iter().map(|&p| request.share_bounds(p)).collect();
+    let bounds: Vec<(f64, f64)> = set.iter().map(|&p| limits.share_bounds(p)).collect();
     let least: f64 = bounds.iter().map(|(least, _)| least).sum();
     let total: f64 = wished.iter().sum();
     let above: Vec<f64> = wished
@@ -218,7 +218,7 @@ pub(super) struct Candidate {
     pub(super) shares: Vec<f64>,
     /// Thickness of the film in the library's unit.
     pub(super) thickness: f64,
-    /// Weighted root mean square of the differences in the request's metric.
+    /// Weighted root mean square of the differences in the metric of the limits.
     pub(super) distance: f64,
 }
 
@@ -242,17 +242,17 @@ const LAST_STEP: f64 = 1e-3;
 /// We halve the step if the distance stays above this fraction of the one before. We chose it by eye.
 const LEAST_GAIN: f64 = 0.999;
 
-/// Returns the recipe found from `start` within the bounds. `None` if no film of the request holds
+/// Returns the recipe found from `start` within the bounds. `None` if no film within them holds
 /// amounts within their limits.
 pub(super) fn descend(
     forward: &Forward<'_>,
-    request: &MatchRequest,
+    limits: &RecipeLimits,
     target: &Target,
     start: &Candidate,
     scratch: &mut Scratch,
 ) -> Option<Candidate> {
-    let (thinnest, thickest) = request.thickness();
-    let (thinner, thicker) = totals(request, &start.pigments);
+    let (thinnest, thickest) = limits.thickness();
+    let (thinner, thicker) = totals(limits, &start.pigments);
     let range = if thinnest < thickest {
         (thinnest.max(thinner), thickest.min(thicker))
     } else {
@@ -261,9 +261,9 @@ pub(super) fn descend(
     if range.0 > range.1 {
         return None;
     }
-    let free = descend_within(forward, request, target, start, (range, false), scratch);
+    let free = descend_within(forward, limits, target, start, (range, false), scratch);
     let keeps = free.pigments.iter().zip(&free.shares).all(|(&pigment, share)| {
-        let (least, most) = request.share_bounds_at(pigment, free.thickness);
+        let (least, most) = limits.share_bounds_at(pigment, free.thickness);
         (least..=most).contains(share)
     });
     if keeps {
@@ -272,9 +272,9 @@ pub(super) fn descend(
     // The film is now about as thick as is best within the limits, which at one thickness are bounds of
     // shares. We try nearby thicknesses in halving steps.
     let mut at_thickness = |near: &Candidate, thickness: f64| {
-        let start = within_limits(request, &Candidate { thickness, ..near.clone() })?;
+        let start = within_limits(limits, &Candidate { thickness, ..near.clone() })?;
         let range = (thickness, thickness);
-        Some(descend_within(forward, request, target, &start, (range, true), scratch))
+        Some(descend_within(forward, limits, target, &start, (range, true), scratch))
     };
     let mut best = at_thickness(&free, free.thickness)?;
     let mut step = if range.0 < range.1 { FIRST_STEP } else { 0.0 };
@@ -295,7 +295,7 @@ pub(super) fn descend(
 /// shares, and you must fix the thickness. Otherwise there is a penalty beyond the limits.
 fn descend_within(
     forward: &Forward<'_>,
-    request: &MatchRequest,
+    limits: &RecipeLimits,
     target: &Target,
     start: &Candidate,
     ((thinnest, thickest), bounds_hold): ((f64, f64), bool),
@@ -309,9 +309,9 @@ fn descend_within(
     let mut point = [0.0; UNKNOWNS];
     for (at, (&pigment, &share)) in pigments.iter().zip(&start.shares).enumerate() {
         (bounds.lower[at], bounds.upper[at]) = if bounds_hold {
-            request.share_bounds_at(pigment, thinnest)
+            limits.share_bounds_at(pigment, thinnest)
         } else {
-            request.share_bounds(pigment)
+            limits.share_bounds(pigment)
         };
         point[at] = share;
     }
@@ -322,14 +322,14 @@ fn descend_within(
     let thickness_at = |point: &[f64; UNKNOWNS]| {
         if chooses_thickness { point[shares].exp().clamp(thinnest, thickest) } else { thinnest }
     };
-    let has_limits = pigments.iter().any(|&pigment| request.amount_bounds(pigment).is_some());
+    let has_limits = pigments.iter().any(|&pigment| limits.amount_bounds(pigment).is_some());
     let mut cost_at = |point: &[f64; UNKNOWNS]| {
         let unknowns = &point[..count];
         let thickness = thickness_at(point);
         let mut cost =
             forward.cost(target, pigments, unknowns, thickness, chooses_thickness, scratch);
         if has_limits && !bounds_hold {
-            add_penalty(&mut cost, request, pigments, unknowns, thickness);
+            add_penalty(&mut cost, limits, pigments, unknowns, thickness);
         }
         cost
     };
@@ -348,13 +348,13 @@ fn descend_within(
 /// [`PENALTY`].
 fn add_penalty(
     cost: &mut Cost,
-    request: &MatchRequest,
+    limits: &RecipeLimits,
     pigments: &[PigmentId],
     unknowns: &[f64],
     thickness: f64,
 ) {
     for (at, &pigment) in pigments.iter().enumerate() {
-        let Some([least, most]) = request.amount_bounds(pigment) else { continue };
+        let Some([least, most]) = limits.amount_bounds(pigment) else { continue };
         let share = unknowns[at].max(f64::MIN_POSITIVE);
         let amount = share * thickness;
         let residual = PENALTY * (amount / amount.clamp(least, most)).ln();
@@ -377,20 +377,20 @@ fn add_penalty(
 }
 
 /// Least and greatest sum of all amounts that the limits of a set of pigments allow.
-fn totals(request: &MatchRequest, pigments: &[PigmentId]) -> (f64, f64) {
-    let bounds = || pigments.iter().map(|&pigment| (pigment, request.amount_bounds(pigment)));
+fn totals(limits: &RecipeLimits, pigments: &[PigmentId]) -> (f64, f64) {
+    let bounds = || pigments.iter().map(|&pigment| (pigment, limits.amount_bounds(pigment)));
     let least: f64 = bounds().filter_map(|(_, limits)| Some(limits?[0])).sum();
     // Shares of a pigment without limits may have any size, and fixed shares stay fixed.
-    let taken: f64 = bounds().map(|(pigment, _)| request.share_bounds(pigment).0).sum();
+    let taken: f64 = bounds().map(|(pigment, _)| limits.share_bounds(pigment).0).sum();
     let thinnest = if least > 0.0 { least / (1.0 - taken).max(f64::MIN_POSITIVE) } else { 0.0 };
     let most = bounds().map(|(_, limits)| limits.map_or(f64::INFINITY, |[_, most]| most));
     (if pigments.len() == 1 { least } else { thinnest }, most.sum())
 }
 
 /// The recipe with its shares moved within the limits at its thickness. `None` if there are none.
-pub(super) fn within_limits(request: &MatchRequest, recipe: &Candidate) -> Option<Candidate> {
+pub(super) fn within_limits(limits: &RecipeLimits, recipe: &Candidate) -> Option<Candidate> {
     let bounds: Vec<(f64, f64)> =
-        recipe.pigments.iter().map(|&p| request.share_bounds_at(p, recipe.thickness)).collect();
+        recipe.pigments.iter().map(|&p| limits.share_bounds_at(p, recipe.thickness)).collect();
     let least: f64 = bounds.iter().map(|b| b.0).sum();
     let most: f64 = bounds.iter().map(|b| b.1).sum();
     let crossed = bounds.iter().any(|(least, most)| least > most);

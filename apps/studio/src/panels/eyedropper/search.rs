@@ -9,7 +9,7 @@ use paint::strokes::{Action, PaletteSpec, Recipe as Parts};
 use pigment::PigmentId;
 use pigment::evaluate::Viewing;
 use pigment::library::PigmentLibrary;
-use pigment::matching::{MatchRequest, RecipeMatch, ViewingCondition};
+use pigment::matching::{RecipeLimits, RecipeMatch, ViewingCondition};
 use session::{Command, PaintingState};
 use spectra::color::{Rgb, Xyz};
 use spectra::{Observer, light_from_text};
@@ -71,8 +71,8 @@ impl SearchPanel {
         let library = &painting.library;
         let conditions = self.conditions(painting);
         let target = target_color.match_target(library.grid, &conditions);
-        let film = MatchRequest::usual_film(library, painting.ground_reflectance.to_vec());
-        let mut limits = MatchRequest::new(library, conditions, film);
+        let film = RecipeLimits::usual_film(library, painting.ground_reflectance.to_vec());
+        let mut limits = RecipeLimits::new(library, conditions, film);
         if !self.whole_library {
             limits.allowed = painting.slots.iter().copied().flatten().collect();
             limits.allowed.sort_unstable();

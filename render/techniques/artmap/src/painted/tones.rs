@@ -8,7 +8,7 @@ use paint::layer::{SLOTS, Slots};
 use pigment::library::AmountKind;
 use pigment::matching::{RecipeSearch, TargetColor, USUAL_TOLERANCE};
 use pigment::palette::{Cards, Palette, PaletteError};
-use pigment::{ColorTarget, MatchError, MatchOptions, PigmentId, PigmentLibrary, Recipe, Viewing};
+use pigment::{ColorTarget, MatchError, MatchRequest, PigmentId, PigmentLibrary, Recipe, Viewing};
 use spectra::color::{ColorCode, ColorCodeError, Lab};
 
 /// You can ask for this many tones.
@@ -83,12 +83,12 @@ impl ToneLadder {
         let palette = Palette::new(&library, &viewing, Cards::standard(library.grid))?;
         let table = pigments(&palette, code.lab())?;
         let names = table.iter().map(|&pigment| library[pigment].name.clone());
-        let options = MatchOptions {
+        let options = MatchRequest {
             only: names.collect(),
             least_share: LEAST_SHARE,
             count: 1,
             tolerance: Some(USUAL_TOLERANCE),
-            ..MatchOptions::default()
+            ..MatchRequest::default()
         };
         let search = library.recipe_search(&options)?;
         let base = matched(&search, code.lab())?.0;
@@ -202,12 +202,12 @@ impl ToneLadder {
 /// Pigments for mixtures of a hue. There is at most one for each slot of a layer.
 fn pigments(palette: &Palette<'_>, hue: Lab) -> Result<Vec<PigmentId>, TonesError> {
     let library = palette.library();
-    let options = MatchOptions {
+    let options = MatchRequest {
         at_most: HUE_PIGMENTS,
         least_share: LEAST_SHARE,
         count: 1,
         tolerance: Some(USUAL_TOLERANCE),
-        ..MatchOptions::default()
+        ..MatchRequest::default()
     };
     let (_, recipe) = matched(&library.recipe_search(&options)?, hue)?;
     let white =
