@@ -221,8 +221,7 @@ impl RecordingFile {
 
     /// Appends the end of a recording to its file in `folder`. If it starts with the first action,
     /// this begins another file and saves the painting that the recording continues beside it.
-    /// Returns `None`
-    /// if the end does not follow what was written before.
+    /// Returns `None` if the end does not follow what was written before.
     pub(super) fn append(
         &mut self,
         folder: &Path,
