@@ -139,7 +139,7 @@ impl FileHeader {
     ///
     /// # Errors
     /// [`TexelFileError::Unwritable`] if it could not be read again as it is, with `paint`.
-    fn to_json_with_digest(
+    fn into_json_with_digest(
         mut self,
         paint: Option<&PaintOfSamples>,
     ) -> Result<String, TexelFileError> {
@@ -337,7 +337,7 @@ pub fn write(map: &ArtMap) -> Result<Vec<u8>, TexelFileError> {
     for (key, digest) in header.keys.iter_mut().zip(digests) {
         key.digest = digest;
     }
-    write_parts(&KIND, &header.to_json_with_digest(map.paint.as_ref())?, parts)
+    write_parts(&KIND, &header.into_json_with_digest(map.paint.as_ref())?, parts)
 }
 
 fn check_tiles(map: &ArtMap) -> Result<(), String> {
