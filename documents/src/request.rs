@@ -216,6 +216,7 @@ impl<'de, T, P: FnOnce(&str) -> Result<T, RequestError>> Visitor<'de> for TextVi
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::hint::Fault;
     use serde::Deserialize;
 
     #[derive(Debug, PartialEq, Default, Deserialize)]
