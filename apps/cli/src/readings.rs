@@ -16,7 +16,9 @@ use calibrate::visible_band::check_visible_band;
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, Args};
 use documents::counted_as;
-use documents::file::{is_standard_input, is_there};
+use documents::file::is_there;
+
+pub(crate) use documents::text::is_toml;
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
@@ -193,30 +195,9 @@ pub(crate) fn library(path: &Path) -> Result<PigmentLibrary> {
     Ok(PigmentLibrary::open(path)?)
 }
 
-/// Whether a file is TOML: by its ending, standard input by what it holds.
-pub(crate) fn is_toml(path: &Path) -> bool {
-    match is_standard_input(path) {
-        true => holds_toml(&documents::file::read(path).unwrap_or_default()),
-        false => path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")),
-    }
-}
-
-/// Whether the first line that is no comment is one of TOML: a table, or a key with its value.
-fn holds_toml(bytes: &[u8]) -> bool {
-    let Ok(text) = std::str::from_utf8(bytes) else { return false };
-    let mut lines = text.lines().map(str::trim);
-    let first = lines.find(|line| !line.is_empty() && !line.starts_with('#'));
-    first
-        .is_some_and(|line| line.starts_with('[') || (line.contains('=') && !line.starts_with('{')))
-}
-
 /// Reads a file of text, or standard input.
 pub(crate) fn text(path: &Path) -> Result<String> {
-    let name = path.display();
-    String::from_utf8(documents::file::read(path)?).map_err(|error| {
-        let at = error.utf8_error().valid_up_to();
-        Failure::data(format!("{name}, byte {at}: text must be UTF-8"), "save the file in UTF-8")
-    })
+    Ok(pictures::text_of(path)?)
 }
 
 /// References that convert counts to reflectance.
@@ -361,28 +342,4 @@ fn measured(selected: SelectedSpectra, console: &mut Console<'_>) -> Result<Vec<
             Ok(ColorTarget::measured(spectrum.name, reflectance))
         })
         .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::holds_toml;
-
-    #[test]
-    fn toml_is_told_from_models_json_and_pictures() {
-        for toml in
-            ["format = \"paint-volumes\"\n", "# guides\n\n[[guide]]\n", "[edges]\nstrength = 2"]
-        {
-            assert!(holds_toml(toml.as_bytes()), "{toml}");
-        }
-        for other in [
-            &b"# a tent\nmtllib tent.mtl\nv 0 0 1\n"[..],
-            b"ply\nformat ascii 1.0\ncomment a = b\n",
-            b"{\"asset\": {\"generator\": \"a=b\"}}",
-            b"\x89PNG\r\n\x1a\n= \xff",
-            b"# a comment alone\n",
-            b"",
-        ] {
-            assert!(!holds_toml(other), "{other:?}");
-        }
-    }
 }

@@ -4,6 +4,7 @@ use calibrate::matching::{CorrectRequest, MatchOptions};
 use calibrate::plan::PlanRequest;
 use calibrate::quadrature::QuadratureRequest;
 use calibrate::{FitRequest, ValidationRequest};
+use pictures::PictureRequest;
 use schemars::SchemaGenerator;
 use schemars::generate::SchemaSettings;
 use serde_json::{Value, json};
@@ -18,6 +19,7 @@ fn schema() -> String {
     generator.subschema_for::<MatchOptions>();
     generator.subschema_for::<CorrectRequest>();
     generator.subschema_for::<QuadratureRequest>();
+    generator.subschema_for::<PictureRequest>();
     let schema = json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Requests of impasto",
