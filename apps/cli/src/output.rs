@@ -1,7 +1,9 @@
 //! Output files and folders as verbs use them: errors become failures, and what was written is told.
 
-use std::ops::Deref;
-use std::path::{Path, PathBuf};
+use std::{
+    ops::Deref,
+    path::{Path, PathBuf},
+};
 
 use documents::file;
 use paint::technique::Stage;

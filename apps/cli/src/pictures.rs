@@ -4,16 +4,19 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Args, ValueEnum, value_parser};
+use clap::{
+    Args, ValueEnum,
+    builder::{PossibleValuesParser, TypedValueParser},
+    value_parser,
+};
 use documents::{Task, counted, file};
-use graphics::compute::Compute;
-use graphics::export::{PictureFormat, picture_file};
-use graphics::field::Field;
-use graphics::picture::Picture;
-use paint::ground::GroundKind;
-use paint::painting::Painting;
-use paint::scene::PixelsPerCell;
+use graphics::{
+    compute::Compute,
+    export::{PictureFormat, picture_file},
+    field::Field,
+    picture::Picture,
+};
+use paint::{ground::GroundKind, painting::Painting, scene::PixelsPerCell};
 use pictures::{
     ExportRequest, Listener, Note, PX_MM, PictureOutcome, PictureRequest, gamut_remark,
 };

@@ -1,14 +1,14 @@
 //! Options for measurement files (format, units, references of counts), and reading them. This file
 //! also holds what several verbs share: light, observer and pigment library, the white, dark and
 //! tile that convert the counts of a spectrometer to reflectance, spectra that you name as `FILE`
-//! or `FILE#NAME`, and target colours (for example `#rrggbb`, CIELAB, or measured spectra).
+//! or `FILE#NAME`, target colours (for example `#rrggbb`, CIELAB, or measured spectra), and prices.
 
 use std::path::{Path, PathBuf};
 
 use calibrate::Readings;
 use calibrate::evaluate::Viewing;
 use calibrate::library::PigmentLibrary;
-use calibrate::matching::{ColorTarget, ViewingCondition};
+use calibrate::matching::{ColorTarget, PriceList, ViewingCondition, parse_price};
 use calibrate::measurement::{
     AveragedSpectra, AveragedSpectrum, Film, MeasurementTable, Scale, ScaleChoice,
 };
@@ -342,4 +342,23 @@ fn measured(selected: SelectedSpectra, console: &mut Console<'_>) -> Result<Vec<
             Ok(ColorTarget::measured(spectrum.name, reflectance))
         })
         .collect()
+}
+
+/// Reads prices from texts `NAME=PRICE` and from CSV files with the columns `pigment` and `price`.
+pub(crate) fn prices(texts: &[String]) -> Result<PriceList> {
+    let mut prices = PriceList::default();
+    for text in texts {
+        if is_there(Path::new(text)) {
+            prices.add_file(text)?;
+            continue;
+        }
+        let (name, price) = text.rsplit_once('=').ok_or_else(|| {
+            Failure::usage(
+                format!("--cost takes NAME=PRICE or an existing CSV file, found `{text}`"),
+                "try --cost \"Cobalt Blue=0.9\" or --cost prices.csv",
+            )
+        })?;
+        prices.set(name, parse_price(price, text)?)?;
+    }
+    Ok(prices)
 }

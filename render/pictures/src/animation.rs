@@ -1,10 +1,14 @@
 //! Frames of a moving camera: a folder from which an interrupted run continues, and one file.
 
-use std::fmt::{self, Debug, Write as _};
-use std::path::{Path, PathBuf};
+use std::{
+    fmt::{self, Debug, Write as _},
+    path::{Path, PathBuf},
+};
 
-use documents::Task;
-use documents::file::{Output, OutputFolder};
+use documents::{
+    Task,
+    file::{Output, OutputFolder},
+};
 use graphics::export::{
     AnimationFormat, Frame, FrameRate, Sequence, SequenceError, SequenceSettings,
 };

@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use artmap::map::ArtMap;
-use artmap::painted::{PaintedSettings, Style, SwatchPainter};
-use artmap::synthesis::SynthesisSettings;
-use documents::Task;
-use documents::text::is_toml;
+use artmap::{
+    map::ArtMap,
+    painted::{PaintedSettings, Style, SwatchPainter},
+    synthesis::SynthesisSettings,
+};
+use documents::{Task, text::is_toml};
 use paint::technique::Technique;
 use painterly::{Brushwork, Region, RegionArea, Regions};
 

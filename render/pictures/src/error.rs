@@ -1,31 +1,32 @@
 //! Why a picture cannot be painted.
 
-use std::error::Error;
-use std::fmt;
+use std::{error::Error, fmt};
 
-use artmap::painted::{PaintedError, StyleError};
-use artmap::synthesis::SynthesisError;
-use artmap::texel_file::TexelFileError;
-use calibrate::library::LibraryError;
-use calibrate::{BackingError, BackingTextError};
-use documents::Cancelled;
-use documents::file::{FileError, OutputError};
-use documents::hint::{Explain, Fault, Hint};
-use documents::request::RequestError;
-use documents::settings::SettingsError;
-use graphics::camera::CameraPathError;
-use graphics::export::{ExportError, FrameError, SequenceError};
-use graphics::gpu::DeviceError;
-use graphics::mesh::MeshError;
-use graphics::picture::PhotographError;
-use paint::document::PaletteError;
-use paint::export::PaintingExportError;
-use paint::ground::GroundError;
-use paint::light::PaintLightError;
-use paint::painting::PaintingError;
-use paint::scene::PixelsPerCellError;
-use painterly::guides::GuidesError;
-use painterly::{CompositingError, PainterError, RegionsError};
+use artmap::{
+    painted::{PaintedError, StyleError},
+    synthesis::SynthesisError,
+    texel_file::TexelFileError,
+};
+use calibrate::{BackingError, BackingTextError, library::LibraryError};
+use documents::{
+    Cancelled,
+    file::{FileError, OutputError},
+    hint::{Explain, Fault, Hint},
+    request::RequestError,
+    settings::SettingsError,
+};
+use graphics::{
+    camera::CameraPathError,
+    export::{ExportError, FrameError, SequenceError},
+    gpu::DeviceError,
+    mesh::MeshError,
+    picture::PhotographError,
+};
+use paint::{
+    document::PaletteError, export::PaintingExportError, ground::GroundError,
+    light::PaintLightError, painting::PaintingError, scene::PixelsPerCellError,
+};
+use painterly::{CompositingError, PainterError, RegionsError, guides::GuidesError};
 use spectra::ViewingError;
 use watercolor::WatercolorError;
 

@@ -3,22 +3,28 @@
 use std::path::{Path, PathBuf};
 
 use calibrate::Remark;
-use documents::Task;
-use documents::file::{Output, OutputFolder, is_stream, write_whole};
-use documents::hint::Explain;
-use graphics::encoding::over_white;
-use graphics::export::{OutsideGamut, PictureFormat, frame_of, frame_png, picture_file};
-use graphics::field::Field;
-use paint::export::{PaintingExports, SpectralBands};
-use paint::painting::Painting;
-use paint::scene::PixelsPerCell;
-use paint::technique::Stage;
+use documents::{
+    Task,
+    file::{Output, OutputFolder, is_stream, write_whole},
+    hint::Explain,
+};
+use graphics::{
+    encoding::over_white,
+    export::{OutsideGamut, PictureFormat, frame_of, frame_png, picture_file},
+    field::Field,
+};
+use paint::{
+    export::{PaintingExports, SpectralBands},
+    painting::Painting,
+    scene::PixelsPerCell,
+    technique::Stage,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{PictureError, SettingError};
 
-/// What happens while a picture is painted.
+/// Something that happens while a picture is painted.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Note {
     /// Something that was read or chosen, or that did not go as you may expect, for example colours outside the
@@ -26,7 +32,7 @@ pub enum Note {
     Remark(Remark),
     /// The library of pigments that was read.
     Library {
-        /// Its file.
+        /// The file that it was read from.
         path: PathBuf,
         /// Number of its pigments.
         pigments: usize,
@@ -66,8 +72,8 @@ pub struct ExportRequest {
     /// falls on the relief between their centres
     pub supersample: u8,
     /// Write the layers for programs that paint in layers: OpenRaster (.ora) of 16 bits, with the
-    /// ground, each dry layer and the wet paint. By normal opacity they show the picture; films
-    /// themselves do not mix by opacity, so other orders and modes are not those of paint
+    /// ground, each dry layer and the wet paint. By normal opacity they show the picture. Films
+    /// themselves do not mix by opacity, so other orders and modes do not look like paint
     pub layers: Option<PathBuf>,
     /// Write a spectral OpenEXR: the reflectance of every cell, without relief and gloss
     pub spectral: Option<PathBuf>,

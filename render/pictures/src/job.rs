@@ -9,7 +9,7 @@ use crate::painterly_job::PainterlyJob;
 use crate::request::{PictureOutcome, PictureRequest, TechniqueRequest};
 use crate::watercolor_job::WatercolorJob;
 
-/// A picture that can be painted: its files were read, and its outputs can be written.
+/// A picture that can be painted: the request was checked, and its outputs can be written.
 #[derive(Debug)]
 pub struct PictureJob {
     work: Work,

@@ -1,26 +1,31 @@
 //! A model or picture painted in the brushwork of art maps, with the files that were asked for.
 
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use calibrate::library::PigmentLibrary;
-use documents::Task;
-use documents::file::OutputFolder;
-use documents::text::is_toml;
-use graphics::camera::{Camera, PictureView};
-use graphics::compute::Compute;
-use graphics::encoding::{linear_from_encoded, over_white};
-use graphics::export::frame_of;
-use graphics::mesh::{Guide, Mesh};
-use paint::document::{Lighting, Slots};
-use paint::engine::PaintEngine;
-use paint::ground::{GroundKind, GroundSpec};
-use paint::layer::LayerRef;
-use paint::light::Light;
-use paint::painting::Painting;
-use paint::technique::Technique;
-use painterly::guides::Guides;
-use painterly::{FlowPicture, Form, Painter, PictureForm, Preset, Settings, Subject, View};
+use documents::{Task, file::OutputFolder, text::is_toml};
+use graphics::{
+    camera::{Camera, PictureView},
+    compute::Compute,
+    encoding::{linear_from_encoded, over_white},
+    export::frame_of,
+    mesh::{Guide, Mesh},
+};
+use paint::{
+    document::{Lighting, Slots},
+    engine::PaintEngine,
+    ground::{GroundKind, GroundSpec},
+    layer::LayerRef,
+    light::Light,
+    painting::Painting,
+    technique::Technique,
+};
+use painterly::{
+    FlowPicture, Form, Painter, PictureForm, Preset, Settings, Subject, View, guides::Guides,
+};
 use spectra::Viewing;
 
 use crate::animation::{Animation, FramesDigest};

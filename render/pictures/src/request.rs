@@ -99,7 +99,7 @@ pub enum TechniqueRequest {
     Painterly(PainterlyRequest),
 }
 
-/// What watercolour alone takes.
+/// Paper and masks of a watercolour.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct WatercolorRequest {
@@ -112,7 +112,7 @@ pub struct WatercolorRequest {
     pub density_mask: Option<PathBuf>,
 }
 
-/// What painting in the brushwork of art maps alone takes.
+/// Brushwork, form and ground of a picture in the brushwork of art maps.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct PainterlyRequest {
@@ -123,8 +123,8 @@ pub struct PainterlyRequest {
     pub style: Option<String>,
     /// Regions with a map, direction, size, flow or tones of their own (.toml)
     pub regions: Option<PathBuf>,
-    /// Directions of strokes: guides drawn as lines (.toml); or of a picture a PNG whose red (to the
-    /// right) and green (upwards) point about one half, and whose blue is the strength of flow
+    /// Directions of strokes: guides drawn as lines (.toml), or of a picture a PNG: red (to the right) and green
+    /// (upwards) point about one half, and blue is the strength of flow
     pub directions: Option<PathBuf>,
     /// Depth of a picture, which makes a relief of it, before which cameras move: white is near, black
     /// is far (.png, .jpg, .tif, .webp)
@@ -136,7 +136,7 @@ pub struct PainterlyRequest {
     /// Write each frame into this folder as OpenEXR, for compositing: colour and cover, depth, height
     /// of the brushwork, direction of strokes
     pub exr_frames: Option<PathBuf>,
-    /// Paint the first picture with pigments, and show it as a painting, with relief and gloss; a library,
+    /// Paint the first picture with pigments, and show it as a painting, with relief and gloss. A library,
     /// a palette, and exports other than the picture imply it
     pub with_pigments: bool,
     /// Ground of a painting: linen, paper or panel
@@ -209,7 +209,7 @@ pub struct PictureOutcome {
     pub size: (usize, usize),
     /// Name of the device: `cpu`, or the name of a graphics adapter.
     pub backend: String,
-    /// What the technique alone reports.
+    /// Numbers of the technique alone.
     #[serde(flatten)]
     pub technique: TechniqueOutcome,
     /// Number of frames of an animation.
@@ -218,7 +218,7 @@ pub struct PictureOutcome {
     pub frames_found: Option<usize>,
     /// Names of the pigments of the paint, empty without pigments.
     pub pigments: Vec<String>,
-    /// What was read or chosen, and colours that a file cannot hold.
+    /// Remarks on what was read or chosen, and on colours that a file cannot hold.
     pub remarks: Vec<String>,
     /// Files and folders that were written, in their order.
     pub files: Vec<PathBuf>,
@@ -227,11 +227,11 @@ pub struct PictureOutcome {
     pub streamed: Option<Vec<u8>>,
 }
 
-/// What a technique alone reports of a picture.
+/// Numbers of a picture that only its technique has.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum TechniqueOutcome {
-    /// A watercolour.
+    /// The regions of a watercolour.
     Watercolor {
         /// Number of regions of a photograph.
         regions: Option<usize>,
@@ -290,9 +290,9 @@ mod tests {
         let of = |rest: &str| format!(r#"{{"subject": "a.jpg", "technique": {rest}}}"#);
         for (json, message, hint) in [
             (
-                of(r#"{"watercolor": {"dry_brush": "a.png"}}"#),
-                "unknown key `dry_brush`",
-                "did you mean dry_brush_mask?",
+                of(r#"{"watercolor": {"density_maks": "a.png"}}"#),
+                "unknown key `density_maks`",
+                "did you mean density_mask?",
             ),
             (
                 of(r#"{"painterly": {}}, "exports": {"pictures": "a.png"}"#),

@@ -5,8 +5,10 @@ use std::path::{Path, PathBuf};
 
 use calibrate::library::PigmentLibrary;
 use documents::settings::{Preset, changed};
-use paint::document::{Slots, palette_slots};
-use paint::technique::Technique;
+use paint::{
+    document::{Slots, palette_slots},
+    technique::Technique,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -18,7 +20,7 @@ use crate::error::{PictureError, SettingError};
 pub struct StyleRequest {
     /// Preset of settings that ships with impasto
     pub preset: Option<String>,
-    /// Settings from a file (TOML); others keep the values of the preset
+    /// Settings from a file (TOML). Others keep the values of the preset
     pub settings: Option<PathBuf>,
     /// Changes of single settings as KEY=VALUE, such as `edges.strength=2`
     pub set: Vec<String>,

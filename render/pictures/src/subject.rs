@@ -1,13 +1,17 @@
-//! What is painted and how it is seen: a photograph, or a mesh and its cameras.
+//! The subject of a picture and how it is seen: a photograph, or a mesh and its cameras.
 
 use std::path::{Path, PathBuf};
 
-use documents::did_you_mean;
-use documents::file::{is_standard_input, read};
-use graphics::camera::{Camera, CameraPath, Framing};
-use graphics::mesh::{Mesh, SampleModel};
-use graphics::picture::Photograph;
-use graphics::picture_formats::begins_like_picture;
+use documents::{
+    did_you_mean,
+    file::{is_standard_input, read},
+};
+use graphics::{
+    camera::{Camera, CameraPath, Framing},
+    mesh::{Mesh, SampleModel},
+    picture::Photograph,
+    picture_formats::begins_like_picture,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -32,16 +36,16 @@ const WIDTH: usize = 1000;
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ViewRequest {
-    /// Width of the picture in pixels, 16 to 16384 [default: a photograph's own, its longer side at most 1600;
-    /// of a mesh 1000]
+    /// Width of the picture in pixels, 16 to 16384 [default: a photograph's own, its longer side at most 1600,
+    /// and 1000 of a mesh]
     pub width: Option<u64>,
     /// Height of the picture of a mesh in pixels [default: three quarters of the width]
     pub height: Option<u64>,
     /// Camera that shows all of a mesh: degrees around it and above the horizon, and the angle of
-    /// view, such as `30,20,30`; or a file of keyframes (.toml). Of a picture, where its camera
+    /// view, such as `30,20,30`, or a file of keyframes (.toml). Of a picture, where its camera
     /// may move: degrees to the right and upwards
     pub camera: Option<String>,
-    /// Turn the camera around a mesh in this number of frames, 1 to 100000; before a picture, where its
+    /// Turn the camera around a mesh in this number of frames, 1 to 100000. Before a picture, where its
     /// camera may move, it swings
     pub turntable: Option<u64>,
 }

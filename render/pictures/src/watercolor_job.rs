@@ -2,20 +2,22 @@
 
 use std::path::{Path, PathBuf};
 
-use calibrate::backing_from_text;
-use calibrate::library::PigmentLibrary;
-use documents::Task;
-use documents::file::Output;
-use graphics::camera::Camera;
-use graphics::compute::Compute;
-use graphics::encoding::{encoded_from_linear, linear_from_encoded};
-use graphics::export::frame_of;
-use graphics::picture::Photograph;
-use paint::document::{Document, Lighting};
-use paint::engine::PaintEngine;
-use paint::light::Light;
-use paint::painting::Painting;
-use paint::technique::Technique;
+use calibrate::{backing_from_text, library::PigmentLibrary};
+use documents::{Task, file::Output};
+use graphics::{
+    camera::Camera,
+    compute::Compute,
+    encoding::{encoded_from_linear, linear_from_encoded},
+    export::frame_of,
+    picture::Photograph,
+};
+use paint::{
+    document::{Document, Lighting},
+    engine::PaintEngine,
+    light::Light,
+    painting::Painting,
+    technique::Technique,
+};
 use spectra::Viewing;
 use watercolor::{Form, GlazePainter, Masks, Settings, WatercolorPainter};
 

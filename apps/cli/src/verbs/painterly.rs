@@ -12,13 +12,12 @@ use pictures::{
 };
 use serde_json::json;
 
-use crate::animation::AnimationOptions;
+use crate::animation::{AnimationOptions, SubjectOptions};
 use crate::console::Console;
 use crate::engine::BackendOption;
 use crate::failure::Result;
 use crate::library_choice::named_or_default;
 use crate::pictures::{Exports, frames_text, grounds, painted};
-use crate::subject::SubjectOptions;
 use crate::technique::{ShowPreset, StyleOptions, Styled};
 
 /// Paint a 3D model or a photograph in the brushwork of a painting

@@ -12,12 +12,11 @@ use pictures::{
 use serde_json::json;
 use watercolor::WatercolorPainter;
 
-use crate::animation::AnimationOptions;
+use crate::animation::{AnimationOptions, SubjectOptions};
 use crate::console::Console;
 use crate::engine::BackendOption;
 use crate::failure::Result;
 use crate::pictures::{Exports, frames_text, painted};
-use crate::subject::SubjectOptions;
 use crate::technique::{ShowPreset, StyleOptions, Styled};
 
 /// Paint a photograph or a 3D model as a watercolor

@@ -18,14 +18,13 @@ use volumes::script::{PourTable, Row, Script};
 use volumes::settings::{Inside, Preset, Settings};
 use volumes::toml_text::Fault;
 
-use crate::animation::AnimationOptions;
+use crate::animation::{AnimationOptions, SubjectOptions};
 use crate::console::Console;
 use crate::engine::BackendOption;
 use crate::failure::{Failure, Result};
 use crate::output::{Output, OutputFolder, StageFolder};
 use crate::pictures::{Exports, OpenExports, grounds, refuse_same};
 use crate::readings::{library, text, viewing};
-use crate::subject::SubjectOptions;
 use crate::surface::ground;
 use crate::technique::{ShowPreset, StyleOptions, Styled};
 
