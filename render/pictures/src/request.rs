@@ -302,7 +302,7 @@ mod tests {
             (
                 of(r#"{"painterly": {}}, "device": "cup""#),
                 "device: unknown word `cup`",
-                "did you mean cpu?",
+                "it takes the words auto, cpu, gpu",
             ),
         ] {
             let error = request_from_json::<PictureRequest>(&json).unwrap_err();
