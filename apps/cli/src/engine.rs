@@ -6,6 +6,7 @@ use graphics::field::Field;
 use graphics::gpu::BackendChoice;
 use paint::engine::PaintEngine;
 use paint::painting::UNDO_BYTES;
+use pictures::Device;
 
 use crate::console::{Console, without_noise};
 use crate::failure::Result;
@@ -35,10 +36,15 @@ impl BackendOption {
     }
 
     fn choice(&self) -> BackendChoice {
+        self.device().into()
+    }
+
+    /// The device of a request.
+    pub(crate) fn device(&self) -> Device {
         match self.backend {
-            BackendName::Auto => BackendChoice::Auto,
-            BackendName::Cpu => BackendChoice::Cpu,
-            BackendName::Gpu => BackendChoice::Gpu,
+            BackendName::Auto => Device::Auto,
+            BackendName::Cpu => Device::Cpu,
+            BackendName::Gpu => Device::Gpu,
         }
     }
 }

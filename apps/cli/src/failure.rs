@@ -6,6 +6,7 @@ use std::io::{self, ErrorKind, Write};
 
 use documents::hint::{Explain, Fault, Hint};
 use documents::request::RequestError;
+use pictures::{PictureError, SettingError};
 
 /// Result of a verb or of one of its steps.
 pub(crate) type Result<T, E = Failure> = std::result::Result<T, E>;
@@ -66,7 +67,7 @@ impl Failure {
             Self { messages: Vec::new(), hint: None, status: USAGE, pipe_closed: false };
         let mut next = Some(error);
         while let Some(cause) = next {
-            failure.messages.push(cause.to_string());
+            failure.messages.push(message_of(cause));
             let io = cause.downcast_ref::<io::Error>();
             failure.pipe_closed |= io.is_some_and(|io| io.kind() == ErrorKind::BrokenPipe);
             next = cause.source();
@@ -109,6 +110,22 @@ impl<E: Explain + 'static> From<E> for Failure {
     }
 }
 
+/// The message of an error, in which settings of pictures are options.
+fn message_of(error: &(dyn Error + 'static)) -> String {
+    match error.downcast_ref() {
+        Some(PictureError::Setting(error)) => error.message(option_of),
+        _ => match error.downcast_ref::<SettingError>() {
+            Some(error) => error.message(option_of),
+            None => error.to_string(),
+        },
+    }
+}
+
+/// The option of a setting.
+fn option_of(name: &str) -> String {
+    format!("--{}", name.replace('_', "-"))
+}
+
 /// Adds a message to an error that says what was attempted.
 pub(crate) trait Context<T> {
     /// Converts the error to a failure with `message()` first and the error as its cause.
@@ -128,7 +145,7 @@ pub(crate) fn with_options(hint: &Hint) -> String {
             // The library of a verb is one of its words.
             ("pigments" | "library", None) => return "LIBRARY".to_owned(),
             ("reference", _) => "--white".to_owned(),
-            _ => format!("--{}", name.replace('_', "-")),
+            _ => option_of(name),
         };
         value.map_or_else(|| option.clone(), |value| format!("{option} {value}"))
     })

@@ -15,8 +15,6 @@ mod output;
 mod engine;
 mod pictures;
 mod technique;
-mod subject;
-mod palette;
 mod animation;
 mod verbs;
 mod manual;

@@ -121,20 +121,38 @@ impl Drop for Waiting {
     }
 }
 
-/// Does long work behind a spinner that becomes a bar once the task counts steps. You see it only
-/// on a terminal, after one second.
-pub(crate) fn followed<T>(console: &Console<'_>, work: impl FnOnce(&Task) -> T) -> T {
-    let waiting = Waiting::new("", console.shows_progress());
-    let bar = waiting.bar.clone();
-    let task = Task::observed(move |progress| {
-        bar.set_message(progress.stage.to_string());
-        if progress.of > 0 {
-            if bar.length().is_none() {
-                bar.set_style(counting());
+/// A spinner for long work, which becomes a bar once the task counts steps. Shown only on a terminal, after one
+/// second. Dropping it clears it.
+pub(crate) struct Following(Waiting);
+
+impl Following {
+    pub(crate) fn new(console: &Console<'_>) -> Self {
+        Self(Waiting::new("", console.shows_progress()))
+    }
+
+    /// A task that shows its stages and steps.
+    pub(crate) fn task(&self) -> Task {
+        let bar = self.0.bar.clone();
+        Task::observed(move |progress| {
+            bar.set_message(progress.stage.to_string());
+            if progress.of > 0 {
+                if bar.length().is_none() {
+                    bar.set_style(counting());
+                }
+                bar.set_length(progress.of);
+                bar.set_position(progress.done);
             }
-            bar.set_length(progress.of);
-            bar.set_position(progress.done);
-        }
-    });
-    work(&task)
+        })
+    }
+
+    /// Does work that prints, while nothing else is on the screen.
+    pub(crate) fn paused<T>(&self, print: impl FnOnce() -> T) -> T {
+        self.0.bar.suspend(print)
+    }
+}
+
+/// Does long work behind a spinner or a bar. The work prints nothing.
+pub(crate) fn followed<T>(console: &Console<'_>, work: impl FnOnce(&Task) -> T) -> T {
+    let following = Following::new(console);
+    work(&following.task())
 }

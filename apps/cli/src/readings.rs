@@ -1,14 +1,14 @@
-//! Options that read measurements. For measurement files these are the format, the units and the
-//! references that convert counts to reflectance (white, dark and tile). Several verbs also share
-//! the options for light and observer, spectra that you name as `FILE` or `FILE#NAME`, and target
-//! colours, for example `#rrggbb`, CIELAB, or measured spectra.
+//! Options for measurement files (format, units, references of counts), and reading them. This file
+//! also holds what several verbs share: light, observer and pigment library, the white, dark and
+//! tile that convert the counts of a spectrometer to reflectance, spectra that you name as `FILE`
+//! or `FILE#NAME`, target colours (for example `#rrggbb`, CIELAB, or measured spectra), and prices.
 
 use std::path::{Path, PathBuf};
 
 use calibrate::Readings;
 use calibrate::evaluate::Viewing;
 use calibrate::library::PigmentLibrary;
-use calibrate::matching::{ColorTarget, ViewingCondition};
+use calibrate::matching::{ColorTarget, PriceList, ViewingCondition, parse_price};
 use calibrate::measurement::{
     AveragedSpectra, AveragedSpectrum, Film, MeasurementTable, Scale, ScaleChoice,
 };
@@ -16,7 +16,9 @@ use calibrate::visible_band::check_visible_band;
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, Args};
 use documents::counted_as;
-use documents::file::{is_standard_input, is_there};
+use documents::file::is_there;
+
+pub(crate) use documents::text::is_toml;
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
@@ -180,30 +182,9 @@ pub(crate) fn library(path: &Path) -> Result<PigmentLibrary> {
     Ok(PigmentLibrary::open(path)?)
 }
 
-/// Whether a file is TOML. Its ending decides, or the content of standard input.
-pub(crate) fn is_toml(path: &Path) -> bool {
-    match is_standard_input(path) {
-        true => holds_toml(&documents::file::read(path).unwrap_or_default()),
-        false => path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")),
-    }
-}
-
-/// Whether the first line that is no comment is one of TOML: a table, or a key with its value.
-fn holds_toml(bytes: &[u8]) -> bool {
-    let Ok(text) = std::str::from_utf8(bytes) else { return false };
-    let mut lines = text.lines().map(str::trim);
-    let first = lines.find(|line| !line.is_empty() && !line.starts_with('#'));
-    first
-        .is_some_and(|line| line.starts_with('[') || (line.contains('=') && !line.starts_with('{')))
-}
-
 /// Reads a file of text, or standard input.
 pub(crate) fn text(path: &Path) -> Result<String> {
-    let name = path.display();
-    String::from_utf8(documents::file::read(path)?).map_err(|error| {
-        let at = error.utf8_error().valid_up_to();
-        Failure::data(format!("{name}, byte {at}: text must be UTF-8"), "save the file in UTF-8")
-    })
+    Ok(pictures::text_of(path)?)
 }
 
 /// References that convert counts to reflectance.
@@ -350,26 +331,21 @@ fn measured(selected: SelectedSpectra, console: &mut Console<'_>) -> Result<Vec<
         .collect()
 }
 
-#[cfg(test)]
-mod tests {
-    use super::holds_toml;
-
-    #[test]
-    fn toml_is_told_from_models_json_and_pictures() {
-        for toml in
-            ["format = \"paint-volumes\"\n", "# guides\n\n[[guide]]\n", "[edges]\nstrength = 2"]
-        {
-            assert!(holds_toml(toml.as_bytes()), "{toml}");
+/// Reads prices from texts `NAME=PRICE` and from CSV files with the columns `pigment` and `price`.
+pub(crate) fn prices(texts: &[String]) -> Result<PriceList> {
+    let mut prices = PriceList::default();
+    for text in texts {
+        if is_there(Path::new(text)) {
+            prices.add_file(text)?;
+            continue;
         }
-        for other in [
-            &b"# a tent\nmtllib tent.mtl\nv 0 0 1\n"[..],
-            b"ply\nformat ascii 1.0\ncomment a = b\n",
-            b"{\"asset\": {\"generator\": \"a=b\"}}",
-            b"\x89PNG\r\n\x1a\n= \xff",
-            b"# a comment alone\n",
-            b"",
-        ] {
-            assert!(!holds_toml(other), "{other:?}");
-        }
+        let (name, price) = text.rsplit_once('=').ok_or_else(|| {
+            Failure::usage(
+                format!("--cost takes NAME=PRICE or an existing CSV file, found `{text}`"),
+                "try --cost \"Cobalt Blue=0.9\" or --cost prices.csv",
+            )
+        })?;
+        prices.set(name, parse_price(price, text)?)?;
     }
+    Ok(prices)
 }

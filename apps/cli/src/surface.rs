@@ -1,16 +1,14 @@
 //! Options for the surface reflection of a paint film, for the ground under a film (`--over`, e.g.
 //! a grey or a measured spectrum), and for regular wavelengths (`--grid`, as `FIRST,LAST,STEP`).
 
-use calibrate::Backing;
+use calibrate::{Backing, BackingTextError, backing_from_text};
 use clap::{Args, ValueEnum};
-use documents::name_list;
 use documents::request::RequestError;
 use spectra::optics::{Specular, Surface};
-use spectra::{Grid, GridError, Reflectance, Spectrum};
+use spectra::{Grid, GridError};
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::readings::{ReadingOptions, SelectedSpectra, select_spectra};
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum SpecularName {
@@ -66,35 +64,17 @@ impl SurfaceOptions {
     }
 }
 
-/// Maximum number of names that the hint lists, chosen by eye.
-const LISTED: usize = 8;
-
 /// Parses `--over`: a reflectance from 0 to 1, `white`, `black`, or one spectrum of a file.
 pub(crate) fn ground(text: &str, console: &mut Console<'_>) -> Result<Backing> {
-    if let Ok(backing) = text.parse() {
-        return Ok(backing);
-    }
-    let selected = select_spectra(text, &ReadingOptions::default(), console)?;
-    let Some(SelectedSpectra { file, averaged }) = selected else {
-        return Err(Failure::usage(
-            format!("--over takes 0 to 1, white, black or an existing file, found `{text}`"),
-            "try --over 0.85 or --over paper.csv#SAMPLE",
-        ));
-    };
-    let [spectrum] = averaged.spectra.as_slice() else {
-        let names: Vec<&str> = averaged.spectra.iter().map(|s| s.name.as_str()).collect();
-        return Err(Failure::data(
-            format!("{file}: expected one spectrum of a ground, found `{}`", names.len()),
-            format!(
-                "select one by --over \"{file}#NAME\", with NAME {}",
-                name_list(&names, LISTED, " or ")
-            ),
-        ));
-    };
-    Ok(Backing::Measured(Spectrum::<Reflectance>::new(
-        averaged.grid,
-        spectrum.reflectance.clone(),
-    )?))
+    let mut remarks = Vec::new();
+    let backing = backing_from_text(text, &mut remarks);
+    console.remarks(&remarks)?;
+    backing.map_err(|error| match error {
+        BackingTextError::Text(error) => {
+            Failure::of_request(&error.at("over"), |key| format!("--{key}"))
+        }
+        error => error.into(),
+    })
 }
 
 /// Parses a grid `FIRST,LAST,STEP` in nm.

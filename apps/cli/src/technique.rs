@@ -1,20 +1,20 @@
 //! What all verbs of painting share: the options for presets and settings of a technique, and
 //! painting behind a progress bar.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use artmap::painted::{PaintedSettings, Style, SwatchPainter};
 use artmap::sample::SampleSet;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use documents::settings::{Preset, changed};
+use documents::settings::Preset;
 use paint::technique::Technique;
+use pictures::{StyleRequest, toml_of_change};
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::output::StageFolder;
 use crate::progress::followed;
-use crate::readings::{is_toml, text};
 
 /// A technique with presets and settings that a verb takes as options.
 pub(crate) trait Styled: Technique + std::fmt::Debug {
@@ -64,6 +64,15 @@ impl<T: Styled> ShowPreset<T> {
 }
 
 impl<T: Styled> StyleOptions<T> {
+    /// The settings of these options.
+    pub(crate) fn request(&self) -> StyleRequest {
+        StyleRequest {
+            preset: self.preset.map(|preset| preset.name().to_owned()),
+            settings: self.settings.clone(),
+            set: self.set.clone(),
+        }
+    }
+
     /// The preset, if one is named.
     pub(crate) fn preset(&self) -> Option<T::Preset> {
         self.preset
@@ -74,29 +83,10 @@ impl<T: Styled> StyleOptions<T> {
         self.settings.as_ref()
     }
 
-    /// The settings of preset, file and single changes.
-    pub(crate) fn settings(&self) -> Result<T::Settings> {
-        let mut settings = self.preset.map_or_else(T::Settings::default, Preset::settings);
-        if let Some(path) = &self.settings {
-            settings = T::changed_by_file(&settings, path, &text(path)?)?;
-        }
-        self.each_set(|name, toml| {
-            settings = changed(&settings, name, toml)?;
-            Ok(())
-        })?;
-        Ok(settings)
-    }
-
     /// Calls `change` with each option `--set`, as it was written and as a line of TOML.
     pub(crate) fn each_set(&self, mut change: impl FnMut(&str, &str) -> Result<()>) -> Result<()> {
         self.set.iter().try_for_each(|option| {
-            let Some((key, value)) = option.split_once('=') else {
-                return Err(Failure::usage(
-                    format!("--set takes KEY=VALUE, found `{option}`"),
-                    format!("try --set {}", T::EXAMPLES.first().copied().unwrap_or_default()),
-                ));
-            };
-            let toml = format!("{} = {}", key.trim(), as_toml(value.trim()));
+            let toml = toml_of_change::<T>(option)?;
             change(&format!("--set {option}"), &toml).map_err(Failure::of_option)
         })
     }
@@ -111,19 +101,6 @@ fn preset_names<P: Preset>() -> impl TypedValueParser<Value = P> {
 fn set_help<T: Technique>() -> String {
     let examples: Vec<String> = T::EXAMPLES.iter().map(|change| format!("`{change}`")).collect();
     format!("Change one setting, such as {}; may be repeated", examples.join(" or "))
-}
-
-/// Converts an option's value to TOML: words need no quotes here, and `.5` is a number.
-fn as_toml(value: &str) -> String {
-    if let Ok(whole) = value.parse::<i64>() {
-        return whole.to_string();
-    }
-    if let Ok(number) = value.parse::<f64>() {
-        return format!("{number:?}").to_lowercase();
-    }
-    // Lists are written as in a file.
-    let bare = ["true", "false"].contains(&value) || value.starts_with(['"', '\'', '[']);
-    if bare { value.to_owned() } else { format!("{value:?}") }
 }
 
 /// Prepares the painter of a subject.
@@ -153,14 +130,6 @@ pub(crate) fn write_stages<T: Technique>(
 ) -> Result<()> {
     let stages = followed(console, |task| painter.stages(view, task))?;
     folder.write(&stages, console)
-}
-
-/// The style of samples that ships with this name, or the style in a file, with its path.
-pub(crate) fn style_of(named: &Path) -> Result<(Style, Option<PathBuf>)> {
-    if is_toml(named) {
-        return Ok((Style::open(named)?, Some(named.to_owned())));
-    }
-    Ok((Style::named(&named.to_string_lossy())?, None))
 }
 
 /// Samples painted by the engine in a style.

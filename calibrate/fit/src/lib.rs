@@ -40,6 +40,7 @@ pub use pigment::{
 pub mod measurement;
 pub mod swatch;
 pub mod readings;
+mod ground;
 pub mod observation;
 pub mod fit;
 mod residuals;
@@ -54,6 +55,7 @@ pub mod plan;
 pub mod synthetic;
 
 pub use fitting::{FilmModel, Fit, FittingError, PreparedFit, fit};
+pub use ground::{BackingTextError, backing_from_text};
 pub use plan::plan;
 pub use readings::{ReadingFormat, ReadingOptions, Readings, ReadingsError};
 pub use report::{ErrorReport, shares_of_squares};

@@ -25,10 +25,14 @@ use replace_in_memory as temporary;
 
 mod signals;
 mod whole;
+mod output;
 
 #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
 mod pieces;
 
+pub use output::{
+    Output, OutputError, OutputFolder, create_folder, is_stream, split_file_and_sheet,
+};
 #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
 pub use pieces::FileInPieces;
 pub use replace::sync_folder;

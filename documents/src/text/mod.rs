@@ -39,7 +39,7 @@ use serde::de::{DeserializeOwned, IgnoredAny};
 use toml::de::DeTable;
 
 use crate::ParserReason;
-use crate::file::{FileError, read};
+use crate::file::{FileError, is_standard_input, read};
 use crate::hint::Explain;
 use key_path::Node;
 
@@ -333,6 +333,24 @@ pub fn read_text(path: &Path) -> Result<String, TextError> {
     })
 }
 
+/// Whether a file is TOML: by its ending, standard input by what it holds.
+#[must_use]
+pub fn is_toml(path: &Path) -> bool {
+    match is_standard_input(path) {
+        true => holds_toml(&read(path).unwrap_or_default()),
+        false => path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")),
+    }
+}
+
+/// Whether the first line that is no comment is one of TOML: a table, or a key with its value.
+fn holds_toml(bytes: &[u8]) -> bool {
+    let Ok(text) = std::str::from_utf8(bytes) else { return false };
+    let mut lines = text.lines().map(str::trim);
+    let first = lines.find(|line| !line.is_empty() && !line.starts_with('#'));
+    first
+        .is_some_and(|line| line.starts_with('[') || (line.contains('=') && !line.starts_with('{')))
+}
+
 /// The line, counted from 1, in which a byte of `text` lies.
 #[must_use]
 pub fn line_of(text: &str, offset: usize) -> usize {
@@ -468,5 +486,24 @@ mod tests {
         assert_eq!(hint, "save the file as UTF-8");
         let missing = read_text(&folder.path().join("none")).unwrap_err();
         assert!(matches!(missing, TextError::File(_)) && missing.hint().is_some());
+    }
+
+    #[test]
+    fn toml_is_told_from_models_json_and_pictures() {
+        for toml in
+            ["format = \"paint-volumes\"\n", "# guides\n\n[[guide]]\n", "[edges]\nstrength = 2"]
+        {
+            assert!(holds_toml(toml.as_bytes()), "{toml}");
+        }
+        for other in [
+            &b"# a tent\nmtllib tent.mtl\nv 0 0 1\n"[..],
+            b"ply\nformat ascii 1.0\ncomment a = b\n",
+            b"{\"asset\": {\"generator\": \"a=b\"}}",
+            b"\x89PNG\r\n\x1a\n= \xff",
+            b"# a comment alone\n",
+            b"",
+        ] {
+            assert!(!holds_toml(other), "{other:?}");
+        }
     }
 }

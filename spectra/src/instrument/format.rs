@@ -300,7 +300,7 @@ impl FileText {
             ContentKind::Workbook => {
                 let sheet = workbook::sheet(file, bytes)?;
                 let others = sheet.others.join("`, `");
-                let (path, wanted) = workbook::split_file_and_sheet(file);
+                let (path, wanted) = documents::file::split_file_and_sheet(file);
                 Ok(Some(Self {
                     file: format!("{path}, sheet `{}`", sheet.name),
                     text: sheet.text.clone(),

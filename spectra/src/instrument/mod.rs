@@ -23,10 +23,10 @@ mod read;
 
 pub use cxf::{CxfHead, write_cxf};
 pub use decode::decode_text;
+pub use documents::file::split_file_and_sheet;
 pub use format::{FileText, Format};
 pub use measured::{
     ChoiceError, InstrumentError, MeasuredQuantity, MeasuredSpectrum, ReflectanceError, Role, Unit,
     choose_spectrum, split_file_and_name,
 };
 pub use read::{InstrumentFile, OpenError, OpenedSpectrum, bytes_of, open, open_spectrum, read};
-pub use workbook::split_file_and_sheet;

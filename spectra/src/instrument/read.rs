@@ -9,7 +9,6 @@ use super::format::{ContentKind, FileText, Format};
 use super::measured::{
     ChoiceError, InstrumentError, MeasuredSpectrum, choose_spectrum, split_file_and_name,
 };
-use super::workbook::split_file_and_sheet;
 use super::{
     avantes, cgats, columns, cxf, field_spectrometers, jcamp, light_meters, ocean_optics, qtx,
 };
@@ -102,7 +101,7 @@ fn checked(
 /// Bytes of the file that you name as `FILE` or `FILE.xlsx#SHEET`.
 pub fn bytes_of(path: impl AsRef<Path>) -> Result<Vec<u8>, FileError> {
     let path = path.as_ref();
-    let sheet = path.to_str().map(split_file_and_sheet).filter(|(_, sheet)| sheet.is_some());
+    let sheet = path.to_str().map(file::split_file_and_sheet).filter(|(_, sheet)| sheet.is_some());
     file::read(sheet.map_or(path, |(file, _)| Path::new(file)))
 }
 

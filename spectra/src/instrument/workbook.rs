@@ -8,6 +8,7 @@ use std::io::Cursor;
 use calamine::{DataRef, DataType, Reader, Xlsx};
 
 use super::measured::InstrumentError;
+use documents::file::split_file_and_sheet;
 use documents::name_list;
 
 const FORMAT: &str = "Excel workbook";
@@ -36,18 +37,6 @@ struct Cell {
     row: u32,
     column: u32,
     content: Content,
-}
-
-/// Splits `FILE.xlsx#SHEET` into the path of the workbook and the name of the sheet. Any other text
-/// has the sheet `None`.
-#[must_use]
-pub fn split_file_and_sheet(text: &str) -> (&str, Option<&str>) {
-    let lower = text.to_ascii_lowercase();
-    let end = [".xlsx#", ".xlsm#"].iter().find_map(|mark| Some(lower.find(mark)? + mark.len()));
-    match end {
-        Some(end) if end < text.len() => (&text[..end - 1], Some(&text[end..])),
-        _ => (text, None),
-    }
 }
 
 /// The sheet that `file` names as `FILE.xlsx#SHEET`. If it names none, you get the first of the

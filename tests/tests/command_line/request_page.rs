@@ -43,8 +43,16 @@ fn section(page: &mut String, name: &str, schema: &Value) {
         *page += "| word | meaning |\n| --- | --- |\n";
         for word in words {
             let meaning = cell(word["description"].as_str().unwrap_or_default());
-            *page += &format!("| `{}` | {meaning} |\n", word["const"].as_str().unwrap());
+            *page += &format!("| {} | {meaning} |\n", written(word));
         }
+    }
+}
+
+/// A word as JSON has it: a text or a number, or a key with further keys.
+fn written(word: &Value) -> String {
+    match word["properties"].as_object().and_then(|keys| keys.iter().next()) {
+        Some((key, value)) => format!("`{key}`: {}", takes(value)),
+        None => format!("`{}`", word["const"].to_string().trim_matches('"')),
     }
 }
 

@@ -4,6 +4,7 @@ use calibrate::matching::{CorrectRequest, MatchRequest};
 use calibrate::plan::PlanRequest;
 use calibrate::quadrature::QuadratureRequest;
 use calibrate::{FitRequest, ValidationRequest};
+use pictures::PictureRequest;
 use reports::ReportRequest;
 use schemars::SchemaGenerator;
 use schemars::generate::SchemaSettings;
@@ -22,6 +23,7 @@ fn schema() -> Value {
     generator.subschema_for::<CorrectRequest>();
     generator.subschema_for::<QuadratureRequest>();
     generator.subschema_for::<ReportRequest>();
+    generator.subschema_for::<PictureRequest>();
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Requests of impasto",

@@ -52,6 +52,19 @@ fn crates_depend_downwards_only() {
         ("render/techniques/strokes", &["documents", "spectra", "pigment", "graphics", "paint"]),
         ("render/techniques/volumes", &["documents", "spectra", "pigment", "graphics", "paint"]),
         ("render/techniques/watercolor", &["documents", "spectra", "pigment", "graphics", "paint"]),
+        (
+            "render/pictures",
+            &[
+                "documents",
+                "spectra",
+                "calibrate",
+                "graphics",
+                "paint",
+                "artmap",
+                "painterly",
+                "watercolor",
+            ],
+        ),
         ("apps/session", &["documents", "spectra", "pigment", "graphics", "paint", "volumes"]),
         (
             "apps/studio",
@@ -84,6 +97,7 @@ fn crates_depend_downwards_only() {
                 "strokes",
                 "volumes",
                 "watercolor",
+                "pictures",
             ],
         ),
     ] {

@@ -17,6 +17,7 @@ use paint::ground::GroundKind;
 use paint::painting::Painting;
 use paint::session::{PaintingSession, ReplayError, ReplayReport};
 use paint::strokes::{Action, ScriptLibrary, SideTable, StrokeScript};
+use pictures::{gamut_remark, pigment_names};
 use serde_json::{Map, Value, json};
 use strokes::{
     ColorErrors, LevelReport, PaintedPhotograph, Photograph, SeparatedFiles, StrokePainter,
@@ -29,8 +30,7 @@ use crate::engine::EngineOptions;
 use crate::failure::{Context, Failure, Result, with_options};
 use crate::library_choice::{ChosenLibrary, quietly_chosen};
 use crate::output::{Output, OutputFolder, create_folder};
-use crate::palette::pigment_names;
-use crate::pictures::{Exports, gamut_remark, grounds};
+use crate::pictures::{Exports, grounds};
 use crate::progress::Progress;
 use crate::readings::library;
 use crate::technique::{painted, prepared};
@@ -313,7 +313,7 @@ fn save(
     let bytes = if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")) {
         let picture = painting.picture()?;
         let file = picture_file(&picture, painting.cell_mm(), PictureFormat::Png8)?;
-        remarks.extend(file.outside_gamut().map(|outside| gamut_remark(path, outside)));
+        remarks.extend(file.outside_gamut().map(|outside| gamut_remark(path, outside).to_string()));
         file.bytes
     } else {
         file::write(&painting.document()?)?

@@ -19,9 +19,8 @@ use crate::console::Console;
 use crate::csv_rows::{self, TableColors, at_most};
 use crate::failure::{Failure, Result};
 use crate::library_choice::{ChosenLibrary, chosen, split};
-use crate::palette::prices;
 use crate::progress::Progress;
-use crate::readings::{ReadingOptions, condition, srgb, targets};
+use crate::readings::{ReadingOptions, condition, prices, srgb, targets};
 use crate::request_options::{CommandLine, RequestOptions, without_value};
 use crate::surface::ground;
 

@@ -8,12 +8,13 @@ use artmap::sample::file;
 use artmap::sheet::sheet;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
+use pictures::style_of;
 
 use super::table::{FileAndSheet, pigment_names, print_samples, sample_json, set_json, spacing};
 use crate::console::Console;
 use crate::failure::Result;
 use crate::library_choice::quietly_chosen;
-use crate::technique::{samples, style_of};
+use crate::technique::samples;
 
 /// Paint samples with the engine: tones of one hue, from dark to light, in the strokes of a style
 ///

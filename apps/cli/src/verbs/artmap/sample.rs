@@ -120,7 +120,7 @@ impl Sample {
         let files = FileAndSheet::open(&self.output, self.sheet.as_deref(), &inputs)?;
         let marked = picture_output(self.marked.as_deref(), &inputs)?;
         let [samples, sheet_file] = files.outputs();
-        refuse_same(&[samples, sheet_file, marked.as_ref()])?;
+        refuse_same(&[samples, sheet_file, marked.as_deref()])?;
         let source = source(&self.painting, self.merge_minor, console)?;
         let marks = self.marks(source.size(), console)?;
         let waiting = Waiting::new("finding passages", console.shows_progress());
@@ -328,7 +328,7 @@ impl ProposalFiles {
     pub(super) fn open(marks: &Path, marked: Option<&Path>, inputs: &[PathBuf]) -> Result<Self> {
         let marks = Output::with_ending(marks, &["toml"], inputs)?;
         let marked = picture_output(marked, inputs)?;
-        refuse_same(&[Some(&marks), marked.as_ref()])?;
+        refuse_same(&[Some(&marks), marked.as_deref()])?;
         Ok(Self { marks, marked })
     }
 }

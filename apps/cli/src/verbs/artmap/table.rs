@@ -211,7 +211,7 @@ impl FileAndSheet {
     pub(super) fn open(file: &Path, sheet: Option<&Path>, inputs: &[PathBuf]) -> Result<Self> {
         let file = Output::with_ending(file, &["exr"], inputs)?;
         let sheet = picture_output(sheet, inputs)?;
-        refuse_same(&[Some(&file), sheet.as_ref()])?;
+        refuse_same(&[Some(&file), sheet.as_deref()])?;
         Ok(Self { file, sheet })
     }
 
@@ -233,8 +233,8 @@ impl FileAndSheet {
         }
     }
 
-    pub(super) fn outputs(&self) -> [Option<&Output>; 2] {
-        [Some(&self.file), self.sheet.as_ref()]
+    pub(super) fn outputs(&self) -> [Option<&documents::file::Output>; 2] {
+        [Some(&self.file), self.sheet.as_deref()]
     }
 }
 

@@ -7,11 +7,12 @@ use std::path::{Path, PathBuf};
 use documents::file::{read, write_whole};
 use graphics::camera::Camera;
 use graphics::encoding::{linear_from_encoded, over_white};
-use graphics::export::{PictureFormat, frame_of, picture_file};
+use graphics::export::{Frame, PictureFormat, frame_of, picture_file};
 use paint::document::Lighting;
 use paint::engine::PaintEngine;
 use paint::light::Light;
 use paint::painting::Painting;
+use pictures::{PX_MM, Recording};
 use spectra::{Observer, Viewing, light_from_text};
 use volumes::painter::{Show, View, VolumePainter};
 use volumes::performance::{Performance, PerformanceError};
@@ -20,12 +21,11 @@ use volumes::world::{StepDevice, World};
 
 use super::options::{MeshFolder, PictureFiles};
 use super::scene::{OpenScript, Scene};
-use crate::animation::Recording;
 use crate::console::Console;
 use crate::csv_rows::at_most;
 use crate::failure::{Context, Result};
 use crate::output::Output;
-use crate::pictures::{OpenExports, PX_MM};
+use crate::pictures::{OpenExports, heard};
 use crate::progress::waited;
 use crate::technique::{painted, write_stages};
 
@@ -66,11 +66,13 @@ impl Film<'_> {
         let mut play = self.beginning.clone();
         let cameras = &self.scene.cameras;
         let size = self.scene.size;
-        let found = recording.paint(console, |frame| {
-            self.advance_with_snapshots(&mut play, frame)?;
-            let camera = &cameras[frame.min(cameras.len() - 1)];
-            let picture = painter.shown(play.world(), camera, size, show)?;
-            Ok(frame_of(&over_white(&picture)))
+        let found = heard(console, |task, listener| {
+            recording.paint(task, listener, |frame| -> Result<Frame> {
+                self.advance_with_snapshots(&mut play, frame)?;
+                let camera = &cameras[frame.min(cameras.len() - 1)];
+                let picture = painter.shown(play.world(), camera, size, show)?;
+                Ok(frame_of(&over_white(&picture)))
+            })
         })?;
         self.snapshots.remove()?;
         Ok(found)

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use calibrate::library::PigmentLibrary;
 use graphics::compute::Compute;
+use pictures::{Animation, FramesDigest};
 use serde_json::json;
 use volumes::painter::{Show, Subject, VolumePainter, VolumePigments};
 use volumes::performance::Performance;
@@ -14,7 +15,6 @@ use volumes::world::{StepDevice, World};
 use super::film::{Film, Snapshots, Stills};
 use super::options::{OpenOutputs, Stencil, apply_style};
 use super::scene::{OpenScript, Scene, Times};
-use crate::animation::{Animation, FramesDigest};
 use crate::console::Console;
 use crate::csv_rows::at_most;
 use crate::failure::{Failure, Result};
@@ -47,9 +47,9 @@ impl Job {
         let path = verb.subject.clone().unwrap_or_default();
         let library = verb.pigments.library()?;
         let mut script = script(&verb, &path, library.as_ref(), console)?;
-        let rate = verb.animation.rate();
+        let rate = verb.animation.request().rate;
         let frames = Times::frames(&script, rate).map_err(|fault| script.located(fault))?;
-        let scene = script.scene(&path, &verb.subject_options, frames)?;
+        let scene = script.scene(&path, &verb.subject_options.request(), frames)?;
         if scene.photograph {
             script.script.light_of_its_own();
         }
@@ -80,7 +80,7 @@ impl Job {
         };
         let beginning = script.performance_at_start(&scene, &settings)?;
         let compute = verb.backend.compute(console)?;
-        let animation = verb.animation.open(&inputs)?;
+        let animation = verb.animation.request().open(&inputs)?;
         let file = animation.as_ref().and_then(Animation::file);
         let outputs = verb.outputs.open(&inputs, frames, file)?;
         let show = verb.show;
@@ -204,7 +204,7 @@ impl Job {
 
 /// Refuses options that ask for nothing.
 fn check_outputs(verb: &Stencil) -> Result<()> {
-    if !verb.outputs.any() && !verb.animation.any() {
+    if !verb.outputs.any() && !verb.animation.request().any() {
         return Err(Failure::usage(
             "nothing would be written",
             "add --picture spread.png, --animation spread.gif, or --output painting.exr",

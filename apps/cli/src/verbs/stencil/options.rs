@@ -9,23 +9,22 @@ use calibrate::Backing;
 use calibrate::library::PigmentLibrary;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use documents::counted;
+use documents::{counted, file};
 use paint::document::Lighting;
 use paint::ground::{GroundKind, GroundSpec, MeasuredPrimer, Primer, PrimerSpectrum};
+use pictures::{listed, name_in_recipe, pigment_names};
 use volumes::painter::{Show, VolumePainter, VolumePigments};
 use volumes::script::{PourTable, Row, Script};
 use volumes::settings::{Inside, Preset, Settings};
 use volumes::toml_text::Fault;
 
-use crate::animation::AnimationOptions;
+use crate::animation::{AnimationOptions, SubjectOptions};
 use crate::console::Console;
 use crate::engine::BackendOption;
 use crate::failure::{Failure, Result};
 use crate::output::{Output, OutputFolder, StageFolder};
-use crate::palette::{listed, name_in_recipe, pigment_names};
 use crate::pictures::{Exports, OpenExports, grounds, refuse_same};
 use crate::readings::{library, text, viewing};
-use crate::subject::SubjectOptions;
 use crate::surface::ground;
 use crate::technique::{ShowPreset, StyleOptions, Styled};
 
@@ -415,7 +414,7 @@ impl OutputOptions {
     }
 
     /// First option present that needs layers of pigments.
-    pub(super) fn layer_option(&self) -> Option<&'static str> {
+    pub(super) fn layer_option(&self) -> Option<String> {
         self.exports.layer_option()
     }
 
@@ -429,22 +428,20 @@ impl OutputOptions {
         self,
         inputs: &[PathBuf],
         frames: usize,
-        animation: Option<&Output>,
+        animation: Option<&file::Output>,
     ) -> Result<OpenOutputs> {
-        let open = |path: &Option<PathBuf>, endings: &[&str]| {
+        let open = |path: &Option<PathBuf>, endings: &[&'static str]| {
             path.as_ref().map(|path| Output::with_ending(path, endings, inputs)).transpose()
         };
         let passes = open(&self.passes, &["exr"])?;
         let mask = open(&self.mask, &["png", "exr"])?;
         let script = open(&self.script_out, &["toml"])?;
-        refuse_same(&[passes.as_ref(), mask.as_ref(), script.as_ref(), animation])?;
+        let files = [&passes, &mask, &script].map(|output| output.as_deref());
+        refuse_same(&[&files[..], &[animation]].concat())?;
         let exports = self.exports.open(inputs)?;
-        let own = [&passes, &mask, &script].into_iter().flatten().chain(animation);
+        let own = files.into_iter().flatten().chain(animation);
         if let Some(twice) = own.into_iter().find(|output| exports.writes(output)) {
-            return Err(Failure::usage(
-                format!("{}: two outputs have this file name", twice.path().display()),
-                "give each output its own file name",
-            ));
+            return Err(twice.used_twice().into());
         }
         let volumes = self.volumes.as_deref();
         let volumes = volumes.map(|folder| MeshFolder::open(folder, frames, inputs)).transpose()?;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use graphics::camera::{Camera, CameraPath, Framing, Keyframe, PictureView};
 use graphics::mesh::Mesh;
+use pictures::{FARTHEST_DEG, PictureViews, Subject, ViewRequest, picture_turns};
 use spectra::instrument::split_file_and_name;
 use volumes::performance::{FirstView, Performance, PerformanceError};
 use volumes::script::{
@@ -17,7 +18,6 @@ use volumes::toml_text::{Fault, KeyPath, KeyStep};
 use super::options::PourOptions;
 use crate::failure::{Failure, Result};
 use crate::readings::{is_toml, text};
-use crate::subject::{FARTHEST_DEG, PictureViews, Subject, SubjectOptions, picture_turns};
 
 /// A script with the file that it was read from, if any.
 pub(super) struct OpenScript {
@@ -184,7 +184,7 @@ impl OpenScript {
     pub(super) fn scene(
         &mut self,
         path: &Path,
-        options: &SubjectOptions,
+        options: &ViewRequest,
         frames: usize,
     ) -> Result<Scene> {
         let subject = self.subject(path)?;
@@ -216,7 +216,14 @@ impl OpenScript {
                 let rows = |columns: usize| ((columns as f64 * shape).round() as usize).max(1);
                 let columns = if free { photograph.usual_width_px() } else { width };
                 let mesh = Mesh::of_picture(&photograph.with_opacity(columns, rows(columns)));
-                let size = (width, options.height().filter(|_| free).unwrap_or(rows(width)));
+                let size = (
+                    width,
+                    options
+                        .height
+                        .map(|height| height as usize)
+                        .filter(|_| free)
+                        .unwrap_or(rows(width)),
+                );
                 let view = PictureView::of(photograph.size());
                 let cameras = picture_cameras(&table, view, &mesh, frames);
                 (mesh, size, cameras.map_err(|fault| self.located(fault))?)
@@ -250,8 +257,8 @@ fn lamp_from(lamp: &str, folder: &Path) -> String {
 }
 
 /// The camera that options choose, for a script of a model or a photograph.
-pub(super) fn camera_table(options: &SubjectOptions, photograph: bool) -> Result<CameraTable> {
-    let turntable = options.turntable().and_then(|frames| u32::try_from(frames).ok());
+pub(super) fn camera_table(options: &ViewRequest, photograph: bool) -> Result<CameraTable> {
+    let turntable = options.turntable.and_then(|frames| u32::try_from(frames).ok());
     if photograph {
         let way = options.picture_camera()?.map(|way| way.map(f64::from));
         let [azimuth_deg, elevation_deg] = [0, 1].map(|axis| way.map(|way| way[axis]));

@@ -1,0 +1,247 @@
+//! Why a picture cannot be painted.
+
+use std::{error::Error, fmt};
+
+use artmap::{
+    painted::{PaintedError, StyleError},
+    synthesis::SynthesisError,
+    texel_file::TexelFileError,
+};
+use calibrate::{BackingError, BackingTextError, library::LibraryError};
+use documents::{
+    Cancelled,
+    file::{FileError, OutputError},
+    hint::{Explain, Fault, Hint},
+    request::RequestError,
+    settings::SettingsError,
+};
+use graphics::{
+    camera::CameraPathError,
+    export::{ExportError, FrameError, SequenceError},
+    gpu::DeviceError,
+    mesh::MeshError,
+    picture::PhotographError,
+};
+use paint::{
+    document::PaletteError, export::PaintingExportError, ground::GroundError,
+    light::PaintLightError, painting::PaintingError, scene::PixelsPerCellError,
+};
+use painterly::{CompositingError, PainterError, RegionsError, guides::GuidesError};
+use spectra::ViewingError;
+use watercolor::WatercolorError;
+
+/// A setting that has another value than it takes, or does not fit the others.
+///
+/// The message names settings by their keys. A program that shows them in another way, for example as options,
+/// calls [`Self::message`].
+#[derive(Debug)]
+pub struct SettingError {
+    /// The setting with which the message begins, if it does.
+    key: Option<String>,
+    /// The rest of the message.
+    reason: Hint,
+    hint: Option<Hint>,
+    cause: Option<Box<dyn Error + Send + Sync>>,
+}
+
+impl SettingError {
+    /// A message that begins with the setting `key`.
+    pub(crate) fn of(key: &str, reason: impl Into<String>, hint: impl Into<String>) -> Self {
+        Self { key: Some(key.to_owned()), ..Self::whole(reason, hint) }
+    }
+
+    /// A message that is a whole sentence.
+    pub(crate) fn whole(message: impl Into<String>, hint: impl Into<String>) -> Self {
+        let reason = Hint::verbatim(message);
+        Self { key: None, reason, hint: Some(Hint::new(hint)), cause: None }
+    }
+
+    /// The error with a message that names further settings in square brackets.
+    pub(crate) fn naming(self, reason: &str) -> Self {
+        Self { reason: Hint::new(reason), ..self }
+    }
+
+    /// The error with a hint that names no setting, and may quote any name.
+    pub(crate) fn verbatim(self, hint: impl Into<String>) -> Self {
+        Self { hint: Some(Hint::verbatim(hint)), ..self }
+    }
+
+    /// The setting `key` with the message and the hint of another error.
+    pub(crate) fn as_of(key: &str, error: &impl Explain) -> Self {
+        Self { hint: error.hint(), ..Self::of(key, error.to_string(), "") }
+    }
+
+    /// The setting `key`, with another error as the cause.
+    pub(crate) fn because(
+        key: &str,
+        reason: &str,
+        cause: impl Explain + Send + Sync + 'static,
+    ) -> Self {
+        let hint = cause.hint();
+        Self { hint, cause: Some(Box::new(cause)), ..Self::of(key, reason, "") }
+    }
+
+    /// The message with settings as a program shows them, such as options of a command line.
+    #[must_use]
+    pub fn message(&self, shown: impl Fn(&str) -> String) -> String {
+        let reason = self.reason.with_settings(|name, _| shown(name));
+        match &self.key {
+            Some(key) => format!("{} {reason}", shown(key)),
+            None => reason,
+        }
+    }
+}
+
+impl fmt::Display for SettingError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message(str::to_owned))
+    }
+}
+
+impl Error for SettingError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        self.cause.as_deref().map(|cause| -> &(dyn Error + 'static) { cause })
+    }
+}
+
+impl Explain for SettingError {
+    fn hint(&self) -> Option<Hint> {
+        self.hint.clone()
+    }
+
+    fn fault(&self) -> Fault {
+        Fault::Setting
+    }
+}
+
+impl From<RequestError> for SettingError {
+    fn from(error: RequestError) -> Self {
+        let hint = error.hint();
+        Self { key: error.key, reason: Hint::verbatim(error.reason), hint, cause: None }
+    }
+}
+
+/// A picture cannot be painted, or one of its files cannot be written.
+#[derive(Debug, thiserror::Error, Explain)]
+pub enum PictureError {
+    /// A setting has another value than it takes.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
+    /// A file states something that cannot be painted.
+    #[error("{message}")]
+    #[hint("{hint}")]
+    Data {
+        /// The file, and what is wrong.
+        message: String,
+        /// The way out.
+        hint: &'static str,
+    },
+    /// A file of settings is not UTF-8.
+    #[error("{file}, byte {byte}: text must be UTF-8")]
+    #[hint("save the file in UTF-8")]
+    Encoding {
+        /// Path of the file.
+        file: String,
+        /// The first byte that is not, counted from 0.
+        byte: usize,
+    },
+    /// The work was asked to end.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// A file cannot be read or written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// An output cannot be written, or must not be.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// There is no such preset, or a file of settings has a fault.
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+    /// A model cannot be read.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// A photograph or another picture cannot be read.
+    #[error(transparent)]
+    Photograph(#[from] PhotographError),
+    /// A path of the camera cannot be read.
+    #[error(transparent)]
+    CameraPath(#[from] CameraPathError),
+    /// The library of pigments cannot be read.
+    #[error(transparent)]
+    Library(#[from] LibraryError),
+    /// The palette does not fit the library.
+    #[error(transparent)]
+    Palette(#[from] PaletteError),
+    /// The measured paper cannot be read.
+    #[error(transparent)]
+    Paper(BackingTextError),
+    /// The paper does not fit the wavelengths of the library.
+    #[error(transparent)]
+    Backing(#[from] BackingError),
+    /// The paper or ground cannot be made.
+    #[error(transparent)]
+    Ground(#[from] GroundError),
+    /// There is no such light.
+    #[error(transparent)]
+    Viewing(#[from] ViewingError),
+    /// The light does not fit the library.
+    #[error(transparent)]
+    Light(#[from] PaintLightError),
+    /// The graphics device cannot be opened.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
+    /// The subject cannot be painted in watercolour.
+    #[error(transparent)]
+    Watercolor(#[from] WatercolorError),
+    /// The subject cannot be painted in the brushwork of a map.
+    #[error(transparent)]
+    Painterly(#[from] PainterError),
+    /// Layers for compositing cannot be made.
+    #[error(transparent)]
+    Compositing(#[from] CompositingError),
+    /// Regions cannot be read.
+    #[error(transparent)]
+    Regions(#[from] RegionsError),
+    /// Guides cannot be read, or do not fit the subject.
+    #[error(transparent)]
+    Guides(#[from] GuidesError),
+    /// A style of samples cannot be read.
+    #[error(transparent)]
+    Style(#[from] StyleError),
+    /// Samples cannot be painted.
+    #[error(transparent)]
+    Samples(#[from] PaintedError),
+    /// No map can be made of samples.
+    #[error(transparent)]
+    Synthesis(#[from] SynthesisError),
+    /// A map cannot be read.
+    #[error(transparent)]
+    Map(#[from] TexelFileError),
+    /// The painting cannot be computed.
+    #[error(transparent)]
+    Painting(#[from] PaintingError),
+    /// The files of a painting cannot be made.
+    #[error(transparent)]
+    PaintingExport(#[from] PaintingExportError),
+    /// A picture cannot be encoded.
+    #[error(transparent)]
+    Export(#[from] ExportError),
+    /// A picture of a stage cannot be encoded.
+    #[error(transparent)]
+    Frame(#[from] FrameError),
+    /// The frames of an animation cannot be written.
+    #[error(transparent)]
+    Sequence(#[from] SequenceError),
+    /// A picture cannot have so many pixels a cell.
+    #[error(transparent)]
+    PixelsPerCell(#[from] PixelsPerCellError),
+}
+
+impl From<BackingTextError> for PictureError {
+    fn from(error: BackingTextError) -> Self {
+        match error {
+            BackingTextError::Text(error) => Self::Setting(error.at("over").into()),
+            error => Self::Paper(error),
+        }
+    }
+}

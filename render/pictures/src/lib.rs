@@ -1,0 +1,73 @@
+//! One job for pictures: a photograph or a model, painted in a technique, with all its files.
+//!
+//! ```text
+//! PictureRequest --open--> PictureJob --paint--> files, PictureOutcome
+//!  (JSON, options)          (checked)
+//! ```
+//!
+//! A [`PictureRequest`] holds subject, technique, settings, pigments, light, outputs and frames as owned values,
+//! so that a program fills it in its own way, for example from JSON, and calls [`PictureRequest::run`]:
+//!
+//! ```
+//! use documents::Task;
+//! use documents::request::request_from_json;
+//! use pictures::PictureRequest;
+//!
+//! let folder = tempfile::tempdir()?;
+//! let json = format!(
+//!     r#"{{
+//!         "subject": "shape:sphere",
+//!         "technique": {{"watercolor": {{}}}},
+//!         "view": {{"width": 32}},
+//!         "style": {{"preset": "landscape"}},
+//!         "stages": {:?},
+//!         "device": "cpu"
+//!     }}"#,
+//!     folder.path().join("steps")
+//! );
+//! let request: PictureRequest = request_from_json(&json)?;
+//! let task = Task::observed(|progress| eprintln!("{progress}"));
+//! let outcome = request.run(&task)?;
+//! assert_eq!(outcome.size, (32, 24));
+//! assert_eq!(outcome.files, [folder.path().join("steps")]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! | task | call |
+//! |---|---|
+//! | paint a picture, and write its files | [`PictureRequest::run`] |
+//! | hear of each file when it is written | [`PictureRequest::open`], [`PictureJob::paint`] |
+//! | write the files of a painting | [`ExportRequest::open`] |
+//! | frames that an interrupted run continues | [`AnimationRequest::open`] |
+//! | a subject with its cameras | [`ViewRequest::subject`] |
+//!
+//! Modules are ordered by dependence: each uses only modules declared above it.
+
+mod error;
+mod exports;
+mod animation;
+mod subject;
+mod style;
+mod request;
+mod brushwork;
+mod watercolor_job;
+mod painterly_job;
+mod job;
+
+pub use animation::{Animation, AnimationRequest, FramesDigest, Recording, animation_format};
+pub use brushwork::style_of;
+pub use error::{PictureError, SettingError};
+pub use exports::{
+    Bands, ExportRequest, Listener, Note, OpenExports, PX_MM, StageFolder, gamut_remark,
+};
+pub use job::PictureJob;
+pub use request::{
+    Device, PainterlyRequest, PictureOutcome, PictureRequest, PigmentRequest, TechniqueOutcome,
+    TechniqueRequest, WatercolorRequest,
+};
+pub use style::{
+    StyleRequest, listed, name_in_recipe, palette, pigment_names, text_of, toml_of_change,
+};
+pub use subject::{
+    FARTHEST_DEG, LEAST_PX, MOST_FRAMES, MOST_PX, PictureViews, Subject, ViewRequest, picture_turns,
+};

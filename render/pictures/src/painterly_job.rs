@@ -1,0 +1,391 @@
+//! A model or picture painted in the brushwork of art maps, with the files that were asked for.
+
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use calibrate::library::PigmentLibrary;
+use documents::{Task, file::OutputFolder, text::is_toml};
+use graphics::{
+    camera::{Camera, PictureView},
+    compute::Compute,
+    encoding::{linear_from_encoded, over_white},
+    export::frame_of,
+    mesh::{Guide, Mesh},
+};
+use paint::{
+    document::{Lighting, Slots},
+    engine::PaintEngine,
+    ground::{GroundKind, GroundSpec},
+    layer::LayerRef,
+    light::Light,
+    painting::Painting,
+    technique::Technique,
+};
+use painterly::{
+    FlowPicture, Form, Painter, PictureForm, Preset, Settings, Subject, View, guides::Guides,
+};
+use spectra::Viewing;
+
+use crate::animation::{Animation, FramesDigest};
+use crate::brushwork::Maps;
+use crate::error::{PictureError, SettingError};
+use crate::exports::{Listener, Note, OpenExports, PX_MM, StageFolder};
+use crate::request::{PainterlyRequest, PictureRequest, TechniqueOutcome};
+use crate::style::palette;
+use crate::subject::{self, MOST_FRAMES, PictureViews, check_range};
+use crate::watercolor_job::{Summary, check_animation, no_frames};
+
+/// A subject with brushwork, materials and outputs that were checked.
+#[derive(Debug)]
+pub(crate) struct PainterlyJob {
+    settings: Settings,
+    scene: Scene,
+    maps: Maps,
+    /// Title, ground and pigments, if it is a painting.
+    painting: Option<Materials>,
+    exports: OpenExports,
+    stages: Option<StageFolder>,
+    exr_frames: Option<ExrFrames>,
+    animation: Option<Animation>,
+}
+
+/// A subject, and the pictures of it.
+#[derive(Debug)]
+struct Scene {
+    form: Form,
+    /// The cameras of all frames, at least one.
+    cameras: Vec<Camera>,
+    /// Width and height of a picture in pixels.
+    size: (usize, usize),
+}
+
+/// Title, ground, pigments and light of a painting.
+#[derive(Debug)]
+struct Materials {
+    title: String,
+    ground: GroundSpec,
+    /// Pigments for the colours of the subject, if they were chosen.
+    pigments: Option<(Arc<PigmentLibrary>, Option<Slots>)>,
+    illuminant: String,
+}
+
+impl PainterlyJob {
+    /// Checks the whole request, reads its files, and makes the maps of its styles.
+    pub(crate) fn open(
+        request: &PictureRequest,
+        own: &PainterlyRequest,
+        task: &Task,
+        listener: &mut Listener<'_>,
+    ) -> Result<Self, PictureError> {
+        let PictureRequest { exports, animation, .. } = request;
+        let single = exports.any() || request.stages.is_some();
+        if !single && !animation.any() && own.exr_frames.is_none() {
+            let hint = "add [picture=painted.png], or [turntable=60] [animation=turning.gif]";
+            return Err(SettingError::whole("nothing would be written", hint).into());
+        }
+        let settings = request.style.settings::<Painter>()?;
+        let views = match own.depth {
+            Some(_) => PictureViews::Turned,
+            None => PictureViews::Front,
+        };
+        let (subject, mut inputs) = request.view.subject(&request.subject, views)?;
+        inputs.extend(own.map_files());
+        inputs.extend(own.directions.iter().chain(&own.depth).cloned());
+        inputs.extend(request.style.settings.iter().chain(&request.pigments.library).cloned());
+        let scene = scene(subject, request, own, &settings)?;
+        let painting = materials(request, own, listener)?;
+        let animation = animation.open(&inputs)?;
+        let exports = exports.clone().open(&inputs)?;
+        check_animation(&exports, animation.as_ref().and_then(Animation::file))?;
+        let stages = request.stages.as_deref();
+        let stages = stages.map(|folder| StageFolder::open(folder, &inputs)).transpose()?;
+        let exr_frames = own.exr_frames.as_deref();
+        let exr_frames = exr_frames
+            .map(|folder| ExrFrames::open(folder, scene.cameras.len(), &inputs))
+            .transpose()?;
+        let preset = request.style.preset::<Painter>()?.unwrap_or(Preset::Impressionist);
+        let maps = own.maps(preset.style(), task)?;
+        Ok(Self { settings, scene, maps, painting, exports, stages, exr_frames, animation })
+    }
+
+    /// Paints the subject. The picture and the stages show it from the first camera, frames from all cameras.
+    pub(crate) fn paint(
+        self,
+        compute: Compute,
+        task: &Task,
+        listener: &mut Listener<'_>,
+    ) -> Result<Summary, PictureError> {
+        let Self { settings, scene, maps, painting, exports, stages, exr_frames, animation } = self;
+        let Scene { form, cameras, size } = scene;
+        let brushwork = maps.brushwork();
+        let backend = compute.name().to_owned();
+        let subject = Subject { form: &form, brushwork: &brushwork, compute };
+        let mut painter = Painter::prepare(subject, &settings, task)?;
+        let recording = match animation {
+            None => None,
+            Some(animation) => {
+                let digest = FramesDigest::default()
+                    .add(&env!("CARGO_PKG_VERSION"))
+                    .add(&settings)
+                    .add(&cameras)
+                    .add(&form)
+                    .add(&brushwork)
+                    .add(&backend);
+                Some(animation.begin(digest, cameras.len(), size)?)
+            }
+        };
+        let first = View { camera: &cameras[0], size, seconds: 0.0 };
+        let strokes = painter.splats(&cameras[0], size, 0.0)?.1;
+        let layers: Vec<usize> = strokes.iter().map(Vec::len).collect();
+        if let Some(folder) = stages {
+            folder.write(&Technique::stages(&mut painter, first, task)?, listener)?;
+        }
+        let mut pigments = Vec::new();
+        match painting {
+            _ if !exports.any() => {}
+            Some(materials) => {
+                task.stage("painting");
+                task.check()?;
+                let mut painting = materials.painting(&mut painter, first)?;
+                pigments = pigments_of(&painting);
+                exports.write(&mut painting, task, listener)?;
+            }
+            None => {
+                let picture = Technique::paint(&mut painter, first, task)?;
+                let linear = linear_from_encoded(&over_white(&picture.color));
+                exports.write_picture(&linear, PX_MM, listener)?;
+            }
+        }
+        // One loop of the flow over all frames.
+        let count = cameras.len();
+        let loop_s = f64::from(settings.flow.loop_seconds);
+        if let Some(folder) = exr_frames {
+            folder.write(task, listener, |index| {
+                let seconds = loop_s * index as f64 / count as f64;
+                Ok(painter.exr_frame(&cameras[index], size, seconds)?)
+            })?;
+        }
+        let mut frames = None;
+        if let Some(recording) = recording {
+            let found = recording.paint(task, listener, |index| -> Result<_, PictureError> {
+                let seconds = loop_s * index as f64 / count as f64;
+                let painted = painter.paint(&cameras[index], size, seconds)?;
+                Ok(frame_of(&over_white(&painted.color)))
+            })?;
+            frames = Some((count, found));
+        }
+        let technique = TechniqueOutcome::Painterly {
+            strokes: layers.iter().sum(),
+            layers,
+            matched: painter.matched(),
+            maps: brushwork.maps.len(),
+            regions: brushwork.regions.list.len(),
+        };
+        Ok(Summary { size, backend, technique, frames, pigments })
+    }
+}
+
+impl Materials {
+    /// The first picture as a painting under its light.
+    fn painting(self, painter: &mut Painter, view: View<'_>) -> Result<Painting, PictureError> {
+        let Self { title, ground, pigments, illuminant } = self;
+        if let Some((library, palette)) = pigments {
+            painter.set_pigments(library, palette);
+        }
+        let mut document = painter.painting(view.camera, view.size, 0.0, (&title, &ground))?;
+        document.lighting = Lighting { illuminant, ..document.lighting };
+        let Lighting { illuminant, observer, .. } = &document.lighting;
+        let light = Light::new(&document.library, &Viewing::named(illuminant, observer)?)?;
+        let engine = PaintEngine::on_cpu(document.ground.height.clone());
+        Ok(Painting::open_under(document, light, engine, 0)?)
+    }
+}
+
+/// Names of the pigments of a painting.
+fn pigments_of(painting: &Painting) -> Vec<String> {
+    let library = painting.library();
+    let wet = painting.slots(LayerRef::Wet).unwrap_or_default();
+    wet.iter().flatten().map(|&pigment| library[pigment].name.clone()).collect()
+}
+
+/// The subject with the cameras of all frames.
+fn scene(
+    subject: subject::Subject,
+    request: &PictureRequest,
+    own: &PainterlyRequest,
+    settings: &Settings,
+) -> Result<Scene, PictureError> {
+    let (form, cameras, size) = match subject {
+        subject::Subject::Mesh(mesh, cameras, size) => {
+            let guides = guides_of_model(own, &mesh)?;
+            (Form::Model(mesh, guides), cameras, size)
+        }
+        subject::Subject::Photograph(photograph, width) => {
+            let (own_width, own_height) = photograph.size();
+            let rows = (width as f64 * own_height as f64 / own_width as f64).round() as usize;
+            let size = (width, rows.max(1));
+            let form = form_of_picture(own)?;
+            let view = PictureView::of(photograph.size());
+            let turns = request.view.picture_turns()?;
+            let cameras = turns.into_iter().map(|[right, up]| view.turned(right, up));
+            (Form::Picture(photograph, form), cameras.collect(), size)
+        }
+    };
+    Ok(Scene { form, cameras: frames(cameras, request, own, settings)?, size })
+}
+
+/// The cameras of all frames.
+fn frames(
+    cameras: Vec<Camera>,
+    request: &PictureRequest,
+    own: &PainterlyRequest,
+    settings: &Settings,
+) -> Result<Vec<Camera>, PictureError> {
+    let Some(&first) = cameras.first() else { return Err(no_frames()) };
+    check_range("loop", own.loop_frames, [1, MOST_FRAMES])?;
+    let Some(frames) = own.loop_frames else {
+        if cameras.len() < 2 && request.animation.any() {
+            let hint = "add [turntable=60], [camera=path.toml] with keyframes, or [loop=48]";
+            let error = SettingError::of("animation", "", hint)
+                .naming("and [frames] need a camera or strokes that move");
+            return Err(error.into());
+        }
+        return Ok(cameras);
+    };
+    if cameras.len() > 1 {
+        let hint = "leave out [loop]: strokes flow while the camera moves too";
+        return Err(SettingError::of("loop", "needs a camera that stands still", hint).into());
+    }
+    let still = settings.flow.periods == 0 && settings.flow.twinkle == 0.0;
+    if still && own.regions.is_none() {
+        let message = "strokes do not flow with these settings";
+        let hint = "add [set=flow.periods=1], or [set=flow.twinkle=0.2]";
+        return Err(SettingError::whole(message, hint).into());
+    }
+    Ok(vec![first; frames as usize])
+}
+
+/// The form of a picture.
+fn form_of_picture(own: &PainterlyRequest) -> Result<PictureForm, PictureError> {
+    let depth = own.depth.as_deref().map(PictureForm::depth_of).transpose()?;
+    let mut form = PictureForm { depth, ..PictureForm::default() };
+    match &own.directions {
+        Some(path) if is_toml(path) => form.guides = PictureForm::guides_of(path)?,
+        Some(path) => form.flow = Some(FlowPicture::open(path)?),
+        None => {}
+    }
+    Ok(form)
+}
+
+/// The guides of a model.
+fn guides_of_model(own: &PainterlyRequest, mesh: &Mesh) -> Result<Vec<Guide>, PictureError> {
+    if let Some(path) = &own.depth {
+        let reason = format!("{} is for pictures, and this is a model", path.display());
+        let hint = "leave out [depth]: a model has its own";
+        return Err(SettingError::of("depth", reason, hint).into());
+    }
+    let Some(path) = &own.directions else { return Ok(Vec::new()) };
+    if !is_toml(path) {
+        let reason = format!("{} is for pictures, and this is a model", path.display());
+        let hint = "draw guides over a view of the model: guides.toml";
+        return Err(SettingError::of("directions", reason, hint).into());
+    }
+    let guides = Guides::open(path)?;
+    let Some(camera) = guides.camera_around(&mesh.positions) else {
+        let message =
+            format!("{}: the guides do not tell the camera of their view", path.display());
+        let hint = "add camera = [30.0, 20.0, 30.0] with the degrees of [camera]";
+        return Err(PictureError::Data { message, hint });
+    };
+    Ok(guides.on_mesh(mesh, &camera)?)
+}
+
+/// Title, ground and pigments, if the picture is a painting.
+fn materials(
+    request: &PictureRequest,
+    own: &PainterlyRequest,
+    listener: &mut Listener<'_>,
+) -> Result<Option<Materials>, PictureError> {
+    let chosen = &request.pigments;
+    let is_chosen = chosen.library.is_some() || !chosen.palette.is_empty();
+    if !(request.exports.key_of_layers().is_some() || own.with_pigments || is_chosen) {
+        return Ok(None);
+    }
+    let pigments = match is_chosen {
+        false => None,
+        true => {
+            let library = library_of(chosen.library.as_deref(), listener)?;
+            let slots = match chosen.palette.is_empty() {
+                true => None,
+                false => Some(palette(&chosen.palette, &library)?),
+            };
+            Some((Arc::new(library), slots))
+        }
+    };
+    let kind = GroundKind::CANVASES.into_iter().find(|kind| kind.name() == own.ground);
+    let Some(kind) = kind else {
+        let names = GroundKind::CANVASES.map(GroundKind::name).join(", ");
+        let reason = format!("takes {names}, found `{}`", own.ground);
+        return Err(SettingError::of("ground", reason, "try [ground=panel]").into());
+    };
+    let illuminant = chosen.illuminant.clone();
+    Ok(Some(Materials { title: request.title(), ground: kind.spec(1), pigments, illuminant }))
+}
+
+/// The library at `path`, or the oils that ship.
+fn library_of(
+    path: Option<&Path>,
+    listener: &mut Listener<'_>,
+) -> Result<PigmentLibrary, PictureError> {
+    let Some(path) = path else { return Ok(PigmentLibrary::van_gogh_oils()) };
+    let library = PigmentLibrary::open(path)?;
+    listener(Note::Library { path: path.to_owned(), pigments: library.pigments.len() });
+    Ok(library)
+}
+
+/// A folder that a number of frames can be written to.
+#[derive(Debug)]
+struct ExrFrames {
+    folder: OutputFolder,
+    frames: usize,
+}
+
+impl ExrFrames {
+    /// Checks that the frames can be written, and that the folder has none beyond them, which would be
+    /// of another animation.
+    fn open(folder: &Path, frames: usize, inputs: &[PathBuf]) -> Result<Self, PictureError> {
+        let folder = OutputFolder::open(folder, inputs)?;
+        let beyond = folder.file(&name(frames));
+        if beyond.exists() {
+            let message = format!("{}: a frame of another animation", beyond.display());
+            let hint = "name an empty folder, or remove its frames";
+            return Err(SettingError::whole(message, hint).into());
+        }
+        folder.check((0..frames).map(name))?;
+        Ok(Self { folder, frames })
+    }
+
+    /// Writes the frames in order, each whole. The folder is made when the first is ready.
+    fn write(
+        self,
+        task: &Task,
+        listener: &mut Listener<'_>,
+        mut frame: impl FnMut(usize) -> Result<Vec<u8>, PictureError>,
+    ) -> Result<(), PictureError> {
+        for index in 0..self.frames {
+            task.check()?;
+            let content = frame(index)?;
+            self.folder.make()?;
+            self.folder.output(&name(index))?.put(content)?;
+        }
+        listener(Note::Wrote(self.folder.path().to_owned()));
+        Ok(())
+    }
+}
+
+/// Name of the frame with this index, counted from 1.
+fn name(index: usize) -> String {
+    format!("frame-{:04}.exr", index + 1)
+}

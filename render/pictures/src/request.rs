@@ -1,0 +1,313 @@
+//! A picture to paint as one type, which every program fills in its own way, and what comes out.
+//!
+//! Comments of the fields are the descriptions of the schema.
+
+use std::path::PathBuf;
+
+use graphics::gpu::BackendChoice;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::animation::AnimationRequest;
+use crate::exports::ExportRequest;
+use crate::style::StyleRequest;
+use crate::subject::ViewRequest;
+
+/// A picture to paint: its subject, a technique, and the files that are written. [`Self::run`] paints it.
+///
+/// All keys but `subject` and `technique` have defaults. As JSON:
+///
+/// ```
+/// use documents::request::request_from_json;
+/// use pictures::PictureRequest;
+///
+/// let request: PictureRequest = request_from_json(
+///     r#"{
+///         "subject": "photo.jpg",
+///         "technique": {"watercolor": {}},
+///         "style": {"preset": "landscape", "set": ["edges.strength=2"]},
+///         "pigments": {"library": "oils.json"},
+///         "exports": {"picture": "painted.png"}
+///     }"#,
+/// )?;
+/// assert_eq!(request.style.preset.as_deref(), Some("landscape"));
+/// # Ok::<(), documents::request::RequestError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(description = "A picture to paint")]
+pub struct PictureRequest {
+    /// A photograph (.png, .jpg, .tif, .webp), a mesh (.obj, .gltf, .glb, .ply), or a built-in shape
+    /// (shape:still-life, shape:village, shape:torus-knot, shape:sphere)
+    pub subject: PathBuf,
+    /// How it is painted
+    pub technique: TechniqueRequest,
+    /// Size of the picture, and the cameras
+    #[serde(default)]
+    pub view: ViewRequest,
+    /// Settings of the technique
+    #[serde(default)]
+    pub style: StyleRequest,
+    /// Pigments and light
+    #[serde(default)]
+    pub pigments: PigmentRequest,
+    /// Files of the picture
+    #[serde(default)]
+    pub exports: ExportRequest,
+    /// Write every step to the picture into this folder, as PNG
+    #[serde(default)]
+    pub stages: Option<PathBuf>,
+    /// File and frames of an animation
+    #[serde(default)]
+    pub animation: AnimationRequest,
+    /// Device to compute on
+    #[serde(default)]
+    pub device: Device,
+}
+
+impl PictureRequest {
+    /// A request with the defaults of all other keys, which writes nothing.
+    #[must_use]
+    pub fn new(subject: impl Into<PathBuf>, technique: TechniqueRequest) -> Self {
+        Self {
+            subject: subject.into(),
+            technique,
+            view: ViewRequest::default(),
+            style: StyleRequest::default(),
+            pigments: PigmentRequest::default(),
+            exports: ExportRequest::default(),
+            stages: None,
+            animation: AnimationRequest::default(),
+            device: Device::default(),
+        }
+    }
+
+    /// The name of the subject's file without its ending.
+    pub(crate) fn title(&self) -> String {
+        let stem = self.subject.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        stem.unwrap_or_default()
+    }
+}
+
+/// A technique of painting, with what it alone takes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum TechniqueRequest {
+    /// Flat regions of a photograph or tones of a mesh become washes
+    Watercolor(WatercolorRequest),
+    /// A model or photograph is covered with strokes of an art map
+    Painterly(PainterlyRequest),
+}
+
+/// Paper and masks of a watercolour.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct WatercolorRequest {
+    /// Reflectance of the paper as measured: 0 to 1, or a file of spectra (FILE#SAMPLE)
+    /// [default: computed from the setting paper.colour]
+    pub over: Option<String>,
+    /// Mask of the dry brush, stretched over the picture: white where the brush is dry
+    pub dry_brush_mask: Option<PathBuf>,
+    /// Mask of the density changes, stretched over the picture: white where density changes
+    pub density_mask: Option<PathBuf>,
+}
+
+/// Brushwork, form and ground of a picture in the brushwork of art maps.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct PainterlyRequest {
+    /// The map (.exr). MATERIAL=FILE is for the parts of a model with that material
+    pub map: Vec<String>,
+    /// Paint samples in this style and make a map of them: oil-flat, oil-long, dabs, knife, hatching,
+    /// dry-brush, or a file (.toml) [default: that of the preset, or oil-flat]
+    pub style: Option<String>,
+    /// Regions with a map, direction, size, flow or tones of their own (.toml)
+    pub regions: Option<PathBuf>,
+    /// Directions of strokes: guides drawn as lines (.toml), or of a picture a PNG: red (to the right) and green
+    /// (upwards) point about one half, and blue is the strength of flow
+    pub directions: Option<PathBuf>,
+    /// Depth of a picture, which makes a relief of it, before which cameras move: white is near, black
+    /// is far (.png, .jpg, .tif, .webp)
+    pub depth: Option<PathBuf>,
+    /// Let strokes flow in a loop of this number of frames, 1 to 100000, seen from a camera that stands
+    /// still
+    #[serde(rename = "loop")]
+    pub loop_frames: Option<u64>,
+    /// Write each frame into this folder as OpenEXR, for compositing: colour and cover, depth, height
+    /// of the brushwork, direction of strokes
+    pub exr_frames: Option<PathBuf>,
+    /// Paint the first picture with pigments, and show it as a painting, with relief and gloss. A library,
+    /// a palette, and exports other than the picture imply it
+    pub with_pigments: bool,
+    /// Ground of a painting: linen, paper or panel
+    pub ground: String,
+}
+
+impl Default for PainterlyRequest {
+    fn default() -> Self {
+        Self {
+            map: Vec::new(),
+            style: None,
+            regions: None,
+            directions: None,
+            depth: None,
+            loop_frames: None,
+            exr_frames: None,
+            with_pigments: false,
+            ground: "panel".to_owned(),
+        }
+    }
+}
+
+/// Pigments that a picture is painted with, and the light in which it is seen.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct PigmentRequest {
+    /// Library of the pigments. Without it a watercolor has no pigments, and a painting has those of its map, or
+    /// the Van Gogh oils that ship
+    pub library: Option<PathBuf>,
+    /// Names of up to eight pigments of the library [default: the ones nearest to the picture's
+    /// colours]
+    pub palette: Vec<String>,
+    /// Light: D65, A, FL11, 5600K, or the file of a lamp
+    pub illuminant: String,
+}
+
+impl Default for PigmentRequest {
+    fn default() -> Self {
+        Self { library: None, palette: Vec::new(), illuminant: "D65".to_owned() }
+    }
+}
+
+/// The processor, or a graphics device.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Device {
+    /// A hardware graphics adapter if there is one, else the processor
+    #[default]
+    Auto,
+    /// The processor (CPU)
+    Cpu,
+    /// A graphics adapter, in hardware or software
+    Gpu,
+}
+
+impl From<Device> for BackendChoice {
+    fn from(device: Device) -> Self {
+        match device {
+            Device::Auto => Self::Auto,
+            Device::Cpu => Self::Cpu,
+            Device::Gpu => Self::Gpu,
+        }
+    }
+}
+
+/// A picture that was painted, and its files.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PictureOutcome {
+    /// Width and height in pixels.
+    pub size: (usize, usize),
+    /// Name of the device: `cpu`, or the name of a graphics adapter.
+    pub backend: String,
+    /// Numbers of the technique alone.
+    #[serde(flatten)]
+    pub technique: TechniqueOutcome,
+    /// Number of frames of an animation.
+    pub frames: Option<usize>,
+    /// Number of frames that existed already.
+    pub frames_found: Option<usize>,
+    /// Names of the pigments of the paint, empty without pigments.
+    pub pigments: Vec<String>,
+    /// Remarks on what was read or chosen, and on colours that a file cannot hold.
+    pub remarks: Vec<String>,
+    /// Files and folders that were written, in their order.
+    pub files: Vec<PathBuf>,
+    /// The content of a file whose path is `-`.
+    #[serde(skip)]
+    pub streamed: Option<Vec<u8>>,
+}
+
+/// Numbers of a picture that only its technique has.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum TechniqueOutcome {
+    /// The regions of a watercolour.
+    Watercolor {
+        /// Number of regions of a photograph.
+        regions: Option<usize>,
+    },
+    /// A subject in the brushwork of art maps.
+    Painterly {
+        /// Number of strokes of the first picture.
+        strokes: usize,
+        /// Number of strokes of each of its layers.
+        layers: Vec<usize>,
+        /// Share of strokes that continue a neighbour, 0 to 1.
+        matched: f64,
+        /// Number of maps.
+        maps: usize,
+        /// Number of regions with brushwork of their own.
+        regions: usize,
+    },
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use documents::hint::Explain;
+    use documents::request::request_from_json;
+
+    fn full() -> PictureRequest {
+        let painterly = PainterlyRequest {
+            map: vec!["wood=bark.exr".to_owned()],
+            loop_frames: Some(48),
+            with_pigments: true,
+            ..PainterlyRequest::default()
+        };
+        let view = ViewRequest { width: Some(96), ..ViewRequest::default() };
+        let exports = ExportRequest { bits: 16, ..ExportRequest::default() };
+        let animation = AnimationRequest { rate: 12.5, ..AnimationRequest::default() };
+        let technique = TechniqueRequest::Painterly(painterly);
+        let device = Device::Cpu;
+        let request = PictureRequest::new("shape:sphere", technique);
+        PictureRequest { view, exports, animation, device, ..request }
+    }
+
+    #[test]
+    fn a_request_is_the_same_after_json() {
+        let watercolor = TechniqueRequest::Watercolor(WatercolorRequest::default());
+        for request in [full(), PictureRequest::new("a photo.jpg", watercolor)] {
+            let json = serde_json::to_string(&request).unwrap();
+            assert_eq!(request_from_json::<PictureRequest>(&json).unwrap(), request, "{json}");
+        }
+        let short = r#"{"subject": "a photo.jpg", "technique": {"watercolor": {"over": null}}}"#;
+        let request: PictureRequest = request_from_json(short).unwrap();
+        assert_eq!(request.pigments.illuminant, "D65");
+    }
+
+    #[test]
+    fn keys_and_words_that_do_not_exist_are_refused_by_name() {
+        let of = |rest: &str| format!(r#"{{"subject": "a.jpg", "technique": {rest}}}"#);
+        for (json, message, hint) in [
+            (
+                of(r#"{"watercolor": {"density_maks": "a.png"}}"#),
+                "unknown key `density_maks`",
+                "did you mean density_mask?",
+            ),
+            (
+                of(r#"{"painterly": {}}, "exports": {"pictures": "a.png"}"#),
+                "unknown key `pictures`",
+                "did you mean picture?",
+            ),
+            (
+                of(r#"{"painterly": {}}, "device": "cup""#),
+                "device: unknown word `cup`",
+                "it takes the words auto, cpu, gpu",
+            ),
+        ] {
+            let error = request_from_json::<PictureRequest>(&json).unwrap_err();
+            let hinted = error.hint().unwrap().to_string();
+            assert_eq!((error.to_string().as_str(), hinted.as_str()), (message, hint), "{json}");
+        }
+    }
+}

@@ -1,0 +1,264 @@
+//! A photograph or a mesh painted in watercolour, with the files that were asked for.
+
+use std::path::{Path, PathBuf};
+
+use calibrate::{backing_from_text, library::PigmentLibrary};
+use documents::{Task, file::Output};
+use graphics::{
+    camera::Camera,
+    compute::Compute,
+    encoding::{encoded_from_linear, linear_from_encoded},
+    export::frame_of,
+    picture::Photograph,
+};
+use paint::{
+    document::{Document, Lighting},
+    engine::PaintEngine,
+    light::Light,
+    painting::Painting,
+    technique::Technique,
+};
+use spectra::Viewing;
+use watercolor::{Form, GlazePainter, Masks, Settings, WatercolorPainter};
+
+use crate::animation::{Animation, FramesDigest};
+use crate::error::{PictureError, SettingError};
+use crate::exports::{Listener, Note, OpenExports, StageFolder};
+use crate::request::{PictureRequest, TechniqueOutcome, WatercolorRequest};
+use crate::style::palette;
+use crate::subject::{PictureViews, Subject};
+
+/// A subject with settings, pigments and outputs that were checked.
+#[derive(Debug)]
+pub(crate) struct WatercolorJob {
+    subject: Subject,
+    title: String,
+    settings: Settings,
+    glazes: Option<GlazePainter>,
+    masks: [Option<PathBuf>; 2],
+    exports: OpenExports,
+    stages: Option<StageFolder>,
+    animation: Option<Animation>,
+}
+
+/// Size, device, frames with those that existed already, and pigments of a finished job.
+pub(crate) struct Summary {
+    pub(crate) size: (usize, usize),
+    pub(crate) backend: String,
+    pub(crate) technique: TechniqueOutcome,
+    pub(crate) frames: Option<(usize, usize)>,
+    pub(crate) pigments: Vec<String>,
+}
+
+/// The error for a path of the camera without a frame.
+pub(crate) fn no_frames() -> PictureError {
+    let message = "the camera path has no frames".to_owned();
+    PictureError::Data { message, hint: "give frames = 60" }
+}
+
+/// The picture and the animation must not be one file.
+pub(crate) fn check_animation(
+    exports: &OpenExports,
+    animation: Option<&Output>,
+) -> Result<(), SettingError> {
+    let Some(file) = animation.filter(|file| exports.writes(file)) else { return Ok(()) };
+    let path = file.path().display();
+    let message = format!("{path}: the picture and the animation have this file name");
+    Err(SettingError::whole(message, "give each its own file name"))
+}
+
+impl WatercolorJob {
+    /// Checks the whole request and reads its files.
+    pub(crate) fn open(
+        request: &PictureRequest,
+        own: &WatercolorRequest,
+        listener: &mut Listener<'_>,
+    ) -> Result<Self, PictureError> {
+        let PictureRequest { exports, animation, pigments, .. } = request;
+        if !exports.any() && request.stages.is_none() && !animation.any() {
+            let hint = "add [picture=watercolor.png], [stages=FOLDER], or [animation=turning.gif]";
+            return Err(SettingError::whole("nothing would be written", hint).into());
+        }
+        let settings = request.style.settings::<WatercolorPainter>()?;
+        let pictures = settings.paper.scan.iter().chain(&settings.toon.greys).map(PathBuf::from);
+        let mut inputs: Vec<PathBuf> = request.style.settings.iter().cloned().collect();
+        inputs.extend(pictures);
+        inputs.extend(pigments.library.clone());
+        let (subject, files) = request.view.subject(&request.subject, PictureViews::Front)?;
+        inputs.extend(files);
+        inputs.extend(own.dry_brush_mask.iter().chain(&own.density_mask).cloned());
+        let still = match &subject {
+            Subject::Photograph(..) => true,
+            Subject::Mesh(_, cameras, _) => cameras.len() < 2,
+        };
+        if still && animation.any() {
+            let hint = "add [turntable=60], or [camera=path.toml] with keyframes";
+            let error = SettingError::of("animation", "", hint)
+                .naming("and [frames] need a mesh and a camera that moves");
+            return Err(error.into());
+        }
+        check_pigments(request, own)?;
+        let glazes = match &pigments.library {
+            Some(path) => Some(glaze_painter(path, request, own, &settings, listener)?),
+            None => None,
+        };
+        let animation = animation.open(&inputs)?;
+        // Last, because it creates folders.
+        let exports = exports.clone().open(&inputs)?;
+        check_animation(&exports, animation.as_ref().and_then(Animation::file))?;
+        let stages = request.stages.as_deref();
+        let stages = stages.map(|folder| StageFolder::open(folder, &inputs)).transpose()?;
+        let masks = [own.dry_brush_mask.clone(), own.density_mask.clone()];
+        let title = request.title();
+        Ok(Self { subject, title, settings, glazes, masks, exports, stages, animation })
+    }
+
+    /// Paints the subject. The picture and the stages show a mesh from the first camera, the animation from
+    /// all cameras.
+    pub(crate) fn paint(
+        self,
+        compute: Compute,
+        task: &Task,
+        listener: &mut Listener<'_>,
+    ) -> Result<Summary, PictureError> {
+        let Self { subject, title, settings, mut glazes, masks, exports, stages, animation } = self;
+        let [dry_brush, density] =
+            masks.map(|path| path.as_deref().map(Photograph::open).transpose());
+        let masks = Masks { dry_brush: dry_brush?, density: density? };
+        let mut digest = FramesDigest::default().add(&env!("CARGO_PKG_VERSION")).add(&settings);
+        let (form, cameras, size) = match subject {
+            Subject::Photograph(photograph, width) => {
+                (Form::Photograph(photograph, width), None, None)
+            }
+            Subject::Mesh(mesh, cameras, size) => {
+                digest = digest.add(&cameras);
+                if animation.is_some() {
+                    digest = digest.add(&mesh).add(&compute.name()).add(&glazes);
+                    // The settings hold only the paths of these pictures, so add their content.
+                    digest = digest.add(&settings.paper.scan.as_ref().map(std::fs::read));
+                    digest = digest.add(&settings.toon.greys.as_ref().map(std::fs::read));
+                    digest = digest.add(&masks.controls(size.0, size.1));
+                }
+                (Form::Model(mesh, size), Some(cameras), Some(size))
+            }
+        };
+        let subject = watercolor::Subject { form, masks, compute };
+        let mut painter = WatercolorPainter::prepare(subject, &settings, task)?;
+        let size = size.unwrap_or_else(|| painter.size());
+        let view = match &cameras {
+            None => None,
+            Some(cameras) => Some(cameras.first().ok_or_else(no_frames)?),
+        };
+        let count = cameras.as_ref().map_or(1, Vec::len);
+        let recording = match animation {
+            Some(animation) => Some(animation.begin(digest, count, size)?),
+            None => None,
+        };
+        if let Some(folder) = &stages {
+            folder.write(&painter.stages(view, task)?, listener)?;
+        }
+        if exports.any() {
+            match &mut glazes {
+                None => {
+                    let picture = linear_from_encoded(&painter.paint(view, task)?);
+                    exports.write_picture(&picture, painter.px_mm(), listener)?;
+                }
+                Some(glazes) => {
+                    let document = painter.painting(view, (glazes, &title), task)?;
+                    exports.write(&mut open_painting(document, glazes)?, task, listener)?;
+                }
+            }
+        }
+        let mut frames = None;
+        if let Some(recording) = recording {
+            if let Some(glazes) = &mut glazes {
+                // Pigments are chosen from the first camera, so that a resumed run chooses the same.
+                painter.choose_pigments(view, glazes)?;
+            }
+            let quiet = task.quiet();
+            let found = recording.paint(task, listener, |index| -> Result<_, PictureError> {
+                let view: Option<&Camera> = cameras.as_ref().map(|cameras| &cameras[index]);
+                let picture = match &mut glazes {
+                    None => painter.paint(view, &quiet)?,
+                    Some(glazes) => {
+                        let document = painter.painting(view, (glazes, "frame"), &quiet)?;
+                        encoded_from_linear(&open_painting(document, glazes)?.picture()?)
+                    }
+                };
+                Ok(frame_of(&picture))
+            })?;
+            frames = Some((count, found));
+        }
+        let pigments = glazes.iter().flat_map(|glazes| glazes.pigments()).map(str::to_owned);
+        Ok(Summary {
+            size,
+            backend: painter.compute_name().to_owned(),
+            technique: TechniqueOutcome::Watercolor { regions: painter.regions() },
+            frames,
+            pigments: pigments.collect(),
+        })
+    }
+}
+
+/// Refuses keys that need pigments if the picture is painted without them.
+fn check_pigments(request: &PictureRequest, own: &WatercolorRequest) -> Result<(), SettingError> {
+    let pigments = &request.pigments;
+    if pigments.library.is_some() {
+        return Ok(());
+    }
+    let key = [
+        ("palette", !pigments.palette.is_empty()),
+        ("over", own.over.is_some()),
+        ("illuminant", pigments.illuminant != "D65"),
+    ];
+    let key = key.into_iter().find(|(_, given)| *given).map(|(key, _)| key);
+    match request.exports.key_of_layers().or(key) {
+        None => Ok(()),
+        Some(key) => Err(SettingError::of(
+            key,
+            "needs pigments, but no library is given",
+            "name a [library] after the subject, such as oils.json; for a linear picture [picture=FILE.exr]",
+        )),
+    }
+}
+
+/// The painter of glazes of the library at `path`.
+fn glaze_painter(
+    path: &Path,
+    request: &PictureRequest,
+    own: &WatercolorRequest,
+    settings: &Settings,
+    listener: &mut Listener<'_>,
+) -> Result<GlazePainter, PictureError> {
+    let pigments = &request.pigments;
+    let library = PigmentLibrary::open(path)?;
+    let palette = match pigments.palette.is_empty() {
+        true => None,
+        false => Some(palette(&pigments.palette, &library)?),
+    };
+    let paper = match &own.over {
+        Some(text) => {
+            let mut remarks = Vec::new();
+            let backing = backing_from_text(text, &mut remarks);
+            remarks.into_iter().for_each(|remark| listener(Note::Remark(remark)));
+            let (paper, remark) = backing?.on_grid(library.grid)?;
+            remark.into_iter().for_each(|remark| listener(Note::Remark(remark)));
+            paper
+        }
+        None => GlazePainter::paper_of_settings(settings, &library)?,
+    };
+    let illuminant = pigments.illuminant.clone();
+    let lighting = Lighting { illuminant, ..Lighting::default() };
+    let light = Light::new(&library, &Viewing::named(&lighting.illuminant, &lighting.observer)?)?;
+    let painter = GlazePainter::new(library, paper, light, lighting);
+    Ok(match palette {
+        Some(palette) => painter.with_palette(palette),
+        None => painter,
+    })
+}
+
+/// Opens a painting of glazes under the light that they were matched under.
+fn open_painting(document: Document, glazes: &GlazePainter) -> Result<Painting, PictureError> {
+    let engine = PaintEngine::on_cpu(document.ground.height.clone());
+    Ok(Painting::open_under(document, glazes.light().clone(), engine, 0)?)
+}
