@@ -3,6 +3,7 @@
 //! | task | call |
 //! |---|---|
 //! | read a file whole, write it so that nothing is lost | [`file::read`], [`file::write_whole`] |
+//! | check before long work that a file can be written | [`file::Output`] |
 //! | say what is wrong and the way out | [`hint::Explain`] |
 //! | report long work, stop it | [`Task`] |
 //! | find the name that was meant | [`did_you_mean`] |

@@ -1,8 +1,8 @@
 //! One job for pictures: a photograph or a model, painted in a technique, with all its files.
 //!
 //! ```text
-//! PictureRequest --open--> PictureJob --paint--> files, PictureOutcome
-//!  (JSON, options)          (checked)
+//! PictureRequest  -> open ->  PictureJob  -> paint ->  files, PictureOutcome
+//! (JSON, options)             (checked)
 //! ```
 //!
 //! A [`PictureRequest`] holds subject, technique, settings, pigments, light, outputs and frames as owned values,
