@@ -1,4 +1,5 @@
-//! Output files and folders as verbs use them: errors become failures, and what was written is told.
+//! Output files and folders as verbs use them. Errors become failures of the verb, and we report what
+//! was written.
 
 use std::{
     ops::Deref,

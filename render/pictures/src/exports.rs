@@ -72,8 +72,9 @@ pub struct ExportRequest {
     /// the cells, and the relief is lit between their centres too
     pub supersample: u8,
     /// Write the layers for programs that paint in layers: OpenRaster (.ora) of 16 bits, with the
-    /// ground, each dry layer and the wet paint. By normal opacity they show the picture. Films
-    /// themselves do not mix by opacity, so other orders and modes do not look like paint
+    /// ground, each dry layer and the wet paint. In this order and with normal
+    /// opacity they show the picture. Real films do not mix by opacity, so another order or mode does
+    /// not look like paint
     pub layers: Option<PathBuf>,
     /// Write a spectral OpenEXR: the reflectance of every cell, without relief and gloss
     pub spectral: Option<PathBuf>,

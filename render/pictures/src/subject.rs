@@ -42,11 +42,11 @@ pub struct ViewRequest {
     /// Height of the picture of a mesh in pixels [default: three quarters of the width]
     pub height: Option<u64>,
     /// Camera that shows all of a mesh: degrees around it and above the horizon, and the angle of
-    /// view, such as `30,20,30`, or a file of keyframes (.toml). Of a picture, where its camera
-    /// may move: degrees to the right and upwards
+    /// view, such as `30,20,30`, or a file of keyframes (.toml). For a picture, if its
+    /// camera may move: degrees to the right and upwards
     pub camera: Option<String>,
-    /// Turn the camera around a mesh in this number of frames, 1 to 100000. Before a picture, where its
-    /// camera may move, it swings
+    /// Turn the camera around a mesh in this number of frames, 1 to 100000. In front of a picture, if
+    /// its camera may move, it swings
     pub turntable: Option<u64>,
 }
 
