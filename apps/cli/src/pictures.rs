@@ -22,7 +22,7 @@ use pictures::{
 };
 
 use crate::console::{Console, without_noise};
-use crate::failure::{Failure, Result};
+use crate::failure::Result;
 use crate::output::Output;
 use crate::progress::Following;
 
@@ -143,20 +143,20 @@ impl OpenExports {
         cell_mm: f64,
         console: &mut Console<'_>,
     ) -> Result<()> {
-        heard(console, |_, listener| self.0.write_picture(picture, cell_mm, listener))
+        heard(console, |_, listener| Ok(self.0.write_picture(picture, cell_mm, listener)?))
     }
 
     /// Computes all exports of `painting` and writes their files.
     pub(crate) fn write(self, painting: &mut Painting, console: &mut Console<'_>) -> Result<()> {
-        heard(console, |task, listener| self.0.write(painting, task, listener))
+        heard(console, |task, listener| Ok(self.0.write(painting, task, listener)?))
     }
 }
 
 /// Does long work behind a bar, and prints what it notes between two pictures of the bar. If printing fails, the
 /// work ends early.
-pub(crate) fn heard<T, E: Into<Failure>>(
+pub(crate) fn heard<T>(
     console: &mut Console<'_>,
-    work: impl FnOnce(&Task, &mut Listener<'_>) -> Result<T, E>,
+    work: impl FnOnce(&Task, &mut Listener<'_>) -> Result<T>,
 ) -> Result<T> {
     let following = Following::new(console);
     let task = following.task();
@@ -171,7 +171,7 @@ pub(crate) fn heard<T, E: Into<Failure>>(
     });
     drop(following);
     printed?;
-    done.map_err(Into::into)
+    done
 }
 
 fn print(note: Note, console: &mut Console<'_>) -> Result<()> {
@@ -191,9 +191,9 @@ pub(crate) fn painted(
     request: &PictureRequest,
     console: &mut Console<'_>,
 ) -> Result<PictureOutcome> {
-    let job = heard(console, |task, listener| request.open(task, listener))?;
+    let job = heard(console, |task, listener| Ok(request.open(task, listener)?))?;
     let compute = without_noise(console, || Compute::choose(request.device.into()))??;
-    heard(console, |task, listener| job.paint(compute, task, listener))
+    heard(console, |task, listener| Ok(job.paint(compute, task, listener)?))
 }
 
 /// The number of frames of an animation as a summary tells it, empty without one.

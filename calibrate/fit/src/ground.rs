@@ -44,7 +44,8 @@ pub fn backing_from_text(
         let hint = "try [over=0.85] or [over=paper.csv#SAMPLE]";
         return Err(BackingTextError::Text(RequestError::value(reason, hint)));
     }
-    let readings = Readings::open_spectra(&[PathBuf::from(file)], &ReadingOptions::default())?;
+    let readings = Readings::open_spectra(&[PathBuf::from(file)], &ReadingOptions::default());
+    let readings = readings.map_err(Box::new)?;
     remarks.extend(readings.remarks);
     let averaged = readings.table.averaged();
     let selected = match name {
@@ -77,7 +78,7 @@ pub enum BackingTextError {
     },
     /// The file cannot be read.
     #[error(transparent)]
-    Readings(#[from] ReadingsError),
+    Readings(#[from] Box<ReadingsError>),
     /// No spectrum of the file has this name.
     #[error(transparent)]
     Name(#[from] SpectrumNameError),

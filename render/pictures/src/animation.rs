@@ -103,7 +103,7 @@ pub struct FramesDigest(Sha256);
 impl FramesDigest {
     /// Adds an input of the frames to the digest.
     #[must_use]
-    pub fn add(mut self, input: &impl Debug) -> Self {
+    pub fn with(mut self, input: &impl Debug) -> Self {
         // Writing to a digest cannot fail.
         let _ = write!(self, "{input:?}");
         self.0.update([0]);

@@ -222,7 +222,7 @@ pub enum PictureError {
     Painting(#[from] PaintingError),
     /// The files of a painting cannot be made.
     #[error(transparent)]
-    PaintingExport(#[from] PaintingExportError),
+    PaintingExport(#[from] Box<PaintingExportError>),
     /// A picture cannot be encoded.
     #[error(transparent)]
     Export(#[from] ExportError),

@@ -306,14 +306,15 @@ impl OpenExports {
         };
         let mut streamed = Vec::new();
         let mut wrote = Vec::new();
-        let outside = exports.write_with(painting, &mut |path: &Path, bytes: &[u8]| {
+        let made = exports.write_with(painting, &mut |path: &Path, bytes: &[u8]| {
             if is_stream(path) {
                 streamed.push(bytes.to_vec());
                 return Ok(());
             }
             wrote.push(path.to_owned());
             write_whole(path, bytes)
-        })?;
+        });
+        let outside = made.map_err(Box::new)?;
         streamed.into_iter().for_each(|bytes| listener(Note::Streamed(bytes)));
         if let Some(folder) = &exports.pigment_maps {
             wrote.retain(|path| path.parent() != Some(folder));

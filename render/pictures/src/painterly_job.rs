@@ -127,12 +127,12 @@ impl PainterlyJob {
             None => None,
             Some(animation) => {
                 let digest = FramesDigest::default()
-                    .add(&env!("CARGO_PKG_VERSION"))
-                    .add(&settings)
-                    .add(&cameras)
-                    .add(&form)
-                    .add(&brushwork)
-                    .add(&backend);
+                    .with(&env!("CARGO_PKG_VERSION"))
+                    .with(&settings)
+                    .with(&cameras)
+                    .with(&form)
+                    .with(&brushwork)
+                    .with(&backend);
                 Some(animation.begin(digest, cameras.len(), size)?)
             }
         };

@@ -125,19 +125,19 @@ impl WatercolorJob {
         let [dry_brush, density] =
             masks.map(|path| path.as_deref().map(Photograph::open).transpose());
         let masks = Masks { dry_brush: dry_brush?, density: density? };
-        let mut digest = FramesDigest::default().add(&env!("CARGO_PKG_VERSION")).add(&settings);
+        let mut digest = FramesDigest::default().with(&env!("CARGO_PKG_VERSION")).with(&settings);
         let (form, cameras, size) = match subject {
             Subject::Photograph(photograph, width) => {
                 (Form::Photograph(photograph, width), None, None)
             }
             Subject::Mesh(mesh, cameras, size) => {
-                digest = digest.add(&cameras);
+                digest = digest.with(&cameras);
                 if animation.is_some() {
-                    digest = digest.add(&mesh).add(&compute.name()).add(&glazes);
+                    digest = digest.with(&mesh).with(&compute.name()).with(&glazes);
                     // The settings hold only the paths of these pictures, so add their content.
-                    digest = digest.add(&settings.paper.scan.as_ref().map(std::fs::read));
-                    digest = digest.add(&settings.toon.greys.as_ref().map(std::fs::read));
-                    digest = digest.add(&masks.controls(size.0, size.1));
+                    digest = digest.with(&settings.paper.scan.as_ref().map(std::fs::read));
+                    digest = digest.with(&settings.toon.greys.as_ref().map(std::fs::read));
+                    digest = digest.with(&masks.controls(size.0, size.1));
                 }
                 (Form::Model(mesh, size), Some(cameras), Some(size))
             }

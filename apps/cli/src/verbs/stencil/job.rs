@@ -168,13 +168,13 @@ impl Job {
     /// Everything that the frames depend on.
     fn digest(&self, backend: &str) -> FramesDigest {
         FramesDigest::default()
-            .add(&env!("CARGO_PKG_VERSION"))
-            .add(&self.script.script)
-            .add(&self.settings)
-            .add(&(&self.scene.cameras, &self.times.frames, self.show))
-            .add(&self.scene.mesh)
-            .add(&self.pigments)
-            .add(&backend)
+            .with(&env!("CARGO_PKG_VERSION"))
+            .with(&self.script.script)
+            .with(&self.settings)
+            .with(&(&self.scene.cameras, &self.times.frames, self.show))
+            .with(&self.scene.mesh)
+            .with(&self.pigments)
+            .with(&backend)
     }
 
     fn painter(&mut self, console: &Console<'_>) -> Result<VolumePainter> {
