@@ -21,9 +21,11 @@
 //! ```
 
 use std::fmt;
+use std::marker::PhantomData;
 
-use serde::Deserializer;
-use serde::de::{DeserializeOwned, Error, SeqAccess, Visitor};
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{DeserializeOwned, Error, MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer};
 use serde_json::{Map, Value};
 
 use crate::hint::{Explain, Hint};
@@ -170,6 +172,45 @@ pub fn from_text<'de, D: Deserializer<'de>, T>(
     deserializer.deserialize_any(TextVisitor { parse })
 }
 
+/// Reads a value that people write as text by `parse`, or by the keys of `K`. For the attribute `deserialize_with`.
+///
+/// # Errors
+/// The error of `parse` or of a key, or that the value is neither a text nor an object.
+pub fn from_text_or_keys<'de, D: Deserializer<'de>, K: Deserialize<'de>, T>(
+    deserializer: D,
+    parse: impl FnOnce(&str) -> Result<T, RequestError>,
+    of_keys: impl FnOnce(K) -> T,
+) -> Result<T, D::Error> {
+    deserializer.deserialize_any(TextOrKeysVisitor { parse, of_keys, keys: PhantomData })
+}
+
+struct TextOrKeysVisitor<P, O, K> {
+    parse: P,
+    of_keys: O,
+    keys: PhantomData<K>,
+}
+
+impl<'de, K, T, P, O> Visitor<'de> for TextOrKeysVisitor<P, O, K>
+where
+    K: Deserialize<'de>,
+    P: FnOnce(&str) -> Result<T, RequestError>,
+    O: FnOnce(K) -> T,
+{
+    type Value = T;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a text or an object")
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<T, E> {
+        (self.parse)(text).map_err(refused)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, keys: A) -> Result<T, A::Error> {
+        K::deserialize(MapAccessDeserializer::new(keys)).map(self.of_keys)
+    }
+}
+
 /// Parses within the visit, so that an error gets the place of its value.
 struct TextVisitor<P> {
     parse: P,
@@ -226,6 +267,18 @@ mod tests {
         pair: [f64; 2],
         grain: Grain,
         inner: Inner,
+        #[serde(deserialize_with = "either")]
+        either: Inner,
+    }
+
+    fn either<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Inner, D::Error> {
+        let parse = |text: &str| {
+            let count = text.parse().map(|count| Inner { count });
+            count.map_err(|_| {
+                RequestError::value(format!("takes a count, found `{text}`"), "try [either=1]")
+            })
+        };
+        from_text_or_keys(deserializer, parse, |inner| inner)
     }
 
     #[derive(Debug, PartialEq, Default, Deserialize)]
@@ -264,8 +317,18 @@ mod tests {
     }
 
     #[test]
+    fn text_and_keys_are_one_value() {
+        for json in [r#"{"either": "3"}"#, r#"{"either": {"count": 3}}"#] {
+            let sample: Sample = request_from_json(json).unwrap();
+            assert_eq!(sample.either, Inner { count: 3 }, "{json}");
+        }
+    }
+
+    #[test]
     fn errors_name_the_key_and_the_way_out() {
         for (json, message, hint) in [
+            (r#"{"either": "few"}"#, "either takes a count, found `few`", "try `either = 1`"),
+            (r#"{"either": {"coumt": 1}}"#, "unknown key `coumt`", "did you mean count?"),
             (r#"{"pair": 3, "grain": "fine"}"#, "pair takes A,B, found `3`", "try `pair = 1,2`"),
             (r#"{"grain": "corse"}"#, "grain: unknown word `corse`", "did you mean coarse?"),
             (r#"{"grein": "fine"}"#, "unknown key `grein`", "did you mean grain?"),

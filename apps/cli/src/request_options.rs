@@ -19,6 +19,11 @@ use crate::failure::{Failure, Result};
 pub(crate) trait CommandLine: DeserializeOwned + JsonSchema {
     /// The option of `key` with what the request does not say: another name, or a name for its value.
     fn adapted(key: &str, option: Arg) -> Arg;
+
+    /// Whether `key` is an option. The verb sets the other keys in its own way.
+    fn is_option(_key: &str) -> bool {
+        true
+    }
 }
 
 /// The options of the request `T` that a command gives. Keys that hold further keys are not among them.
@@ -110,7 +115,10 @@ pub(crate) fn without_value(option: Arg, left_out: &str) -> Arg {
 pub(crate) fn refusal<T: CommandLine>(error: RequestError) -> Failure {
     let keys = keys::<T>();
     Failure::of_request(&error, |name| {
-        let key = keys.iter().find(|key| key.name == name);
+        // An entry of a list is one value of its option.
+        let entry = name.strip_prefix("[[").and_then(|name| name.split_once("]]"));
+        let list = entry.map_or(name, |(list, _)| list);
+        let key = keys.iter().find(|key| key.name == list);
         key.map_or_else(|| name.to_owned(), |key| as_typed(&key.option::<T>()))
     })
 }
@@ -147,13 +155,14 @@ enum Kind {
 }
 
 /// The keys of a request that are options, in the order of its fields.
-fn keys<T: JsonSchema>() -> Vec<Key> {
+fn keys<T: CommandLine>() -> Vec<Key> {
     let settings = SchemaSettings::draft2020_12().with(|settings| {
         settings.inline_subschemas = true;
     });
     let schema = settings.into_generator().into_root_schema_for::<T>().to_value();
     let properties = schema.get("properties").and_then(Value::as_object);
-    let keys = properties.into_iter().flatten().filter_map(|(name, property)| {
+    let options = properties.into_iter().flatten().filter(|(name, _)| T::is_option(name));
+    let keys = options.filter_map(|(name, property)| {
         let kind = kind(property)?;
         let default = property.get("default").filter(|_| kind != Kind::Flag).and_then(text_of);
         let help = property.get("description").and_then(Value::as_str).unwrap_or_default();
@@ -188,9 +197,9 @@ fn kind(schema: &Value) -> Option<Kind> {
     let has = |name: &str| types.contains(&name);
     let format = schema.get("format").and_then(Value::as_str).unwrap_or_default();
     Some(match () {
-        () if has("object") => return None,
         () if has("boolean") => Kind::Flag,
         () if has("string") => Kind::Text { may_be_number: has("number") },
+        () if has("object") => return None,
         () if !words.is_empty() => Kind::Words(words),
         () if has("array") => Kind::Texts,
         () if has("integer") => Kind::Whole(format.to_owned()),

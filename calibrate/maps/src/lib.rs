@@ -32,6 +32,7 @@ mod surveyed;
 pub mod blocks;
 pub mod pictures;
 mod outcomes;
+mod request;
 
 #[cfg(feature = "files")]
 pub use blocks::map_cube;
@@ -47,6 +48,9 @@ pub use mapping::book::{Book, BookEntry, BookSet, OpenBook, SetFrequency};
 pub use mapping::groups::{ALIKE, Column, Confusion};
 pub use mapping::survey::{SURVEYED, survey_step};
 pub use pixel_maps::{MapError, MapsAbout};
+#[cfg(feature = "files")]
+pub use request::MappedScan;
+pub use request::{GroundSource, MapRequest, MapRequestError};
 #[cfg(feature = "files")]
 pub use store::{MapStore, StoreMode, StoredMaps};
 pub use surveyed::{FoundColumn, Region, Spot, SpotError, SpotPigment, SurveyError, SurveyedScan};

@@ -1,4 +1,4 @@
-//! Errors of scans, options of opening them, and advice on kinds of files that are not scans.
+//! Errors of scans, and advice on kinds of files that are not scans.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -189,95 +189,5 @@ pub(crate) fn refuse_other_kinds(path: &Path, start: &[u8]) -> Result<(), CubeEr
     match OTHERS.iter().find(|(magic, ..)| start.starts_with(magic)) {
         None => Ok(()),
         Some((_, kind, way_out)) => Err(CubeError::format(path, format!("is {kind}"), *way_out)),
-    }
-}
-
-/// Scale of the values of a cube.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum CubeScale {
-    /// The file states the scale. If it does not, values up to 2 are fractions and values up to 200
-    /// percent, unless they are integers.
-    #[default]
-    ByFile,
-    /// A white reads about 1.
-    Fraction,
-    /// A white reads about 100.
-    Percent,
-    /// A white reads about this number.
-    White(f64),
-}
-
-/// Dark reading of a camera.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub enum DarkReading {
-    /// There is no dark reading.
-    #[default]
-    Missing,
-    /// The camera's program has already subtracted it.
-    Subtracted,
-    /// A scan with the shutter closed, at the settings of the scan.
-    File(PathBuf),
-}
-
-/// Settings for opening a cube.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CubeOptions {
-    /// A scan of a white at the settings of the scan, for raw counts.
-    pub white_reading: Option<PathBuf>,
-    /// The dark that belongs to this white.
-    pub dark_reading: DarkReading,
-    /// Reflectance of this white.
-    pub tile: f64,
-    /// Scale of the values.
-    pub scale: CubeScale,
-    /// Largest count of the detector. We guess this if you do not give it.
-    pub full_scale: Option<f64>,
-    /// File with the wavelengths of the bands, for cubes that do not name them.
-    pub wavelengths: Option<PathBuf>,
-    /// Name of the array, if a Zarr group holds several.
-    pub variable: Option<String>,
-    /// Folder for the unpacked values of packed images. If you do not give one, this is the
-    /// system's folder for temporary files.
-    pub scratch: Option<PathBuf>,
-}
-
-impl Default for CubeOptions {
-    fn default() -> Self {
-        Self {
-            white_reading: None,
-            dark_reading: DarkReading::Missing,
-            tile: 1.0,
-            scale: CubeScale::ByFile,
-            full_scale: None,
-            wavelengths: None,
-            variable: None,
-            scratch: None,
-        }
-    }
-}
-
-impl CubeOptions {
-    /// Checks the range of every number. Messages call the scan `path`.
-    pub(crate) fn check(&self, path: &Path) -> Result<(), CubeError> {
-        if !(self.tile > 0.0 && self.tile <= 1.2) {
-            let problem = format!(
-                "the white's reflectance must be above 0 and at most 1.2, found `{}`",
-                self.tile
-            );
-            return Err(CubeError::format(path, problem, "give a fraction, such as [tile=0.99]"));
-        }
-        let scale = match self.scale {
-            CubeScale::White(white) => Some(white),
-            _ => None,
-        };
-        for (name, number) in [("scale", scale), ("full_scale", self.full_scale)] {
-            if let Some(found) = number.filter(|number| !(number.is_finite() && *number > 0.0)) {
-                let problem =
-                    format!("the setting `{name}` must be above 0 and finite, found `{found}`");
-                let way_out = format!("give a number with [{name}]");
-                return Err(CubeError::format(path, problem, way_out));
-            }
-        }
-        Ok(())
     }
 }

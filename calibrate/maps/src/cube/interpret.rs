@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::error::{CubeError, CubeOptions, CubeScale};
+use super::error::CubeError;
+use super::options::{CubeOptions, CubeScale};
 use super::window::{Conversion, Opened, Pixels, Terms, Values, Window};
 use crate::pixel_maps::Mask;
 

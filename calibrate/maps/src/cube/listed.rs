@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::envi::{self, EnviHeader};
-use super::error::{CubeError, CubeOptions, DarkReading, refuse_other_kinds};
+use super::error::{CubeError, refuse_other_kinds};
 use super::interpret::{Reading, Readings};
+use super::options::{CubeOptions, DarkReading};
 use super::raw_file::{PositionalFile, ReadAt};
 use super::scan::Cube;
 use super::window::Opened;

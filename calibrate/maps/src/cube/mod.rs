@@ -6,6 +6,7 @@
 //! unpacked into a temporary file first.
 
 mod error;
+mod options;
 mod wavelengths;
 mod window;
 mod interpret;
@@ -27,8 +28,9 @@ mod listed;
 mod open;
 
 pub use crate::numbers::{ByteOrder, NumberType};
-pub use error::{CubeError, CubeOptions, CubeScale, DarkReading};
+pub use error::CubeError;
 pub use listed::ScanFile;
+pub use options::{CubeOptions, CubeScale, DarkReading};
 pub use raw_file::{Interleave, ReadAt};
 pub use scan::{Cube, CubeValues, SpreadPixels};
 pub use window::{Block, GREATEST_REFLECTANCE, LEAST_REFLECTANCE};

@@ -21,8 +21,9 @@ use exr::meta::attribute::SampleType;
 use exr::meta::header::Header;
 use half::f16;
 
-use super::error::{CubeError, CubeOptions, refuse_other_kinds};
+use super::error::{CubeError, refuse_other_kinds};
 use super::listed::{OwnReadings, readings};
+use super::options::CubeOptions;
 use super::raw_file::Interleave;
 use super::scan::Cube;
 use super::side_files::{Spool, wavelengths_of};

@@ -7,8 +7,9 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use super::error::{CubeError, CubeOptions};
+use super::error::CubeError;
 use super::interpret::{Readings, interpret};
+use super::options::CubeOptions;
 use super::window::{Block, Conversion, Opened, Pixels, Source, Terms, Window};
 use crate::pixel_maps::Mask;
 

@@ -10,7 +10,8 @@ use tiff::decoder::{Decoder as TiffDecoder, DecodingResult};
 use tiff::tags::{PlanarConfiguration, Tag};
 use tiff::{ColorType as TiffColor, TiffError};
 
-use crate::cube::error::{CubeError, CubeOptions};
+use crate::cube::error::CubeError;
+use crate::cube::options::CubeOptions;
 use crate::cube::raw_file::Interleave;
 use crate::cube::side_files::{Spool, wavelengths_of};
 use crate::cube::window::{Opened, Values};

@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use serde_json::Value;
 
-use crate::cube::error::{CubeError, CubeOptions};
+use crate::cube::error::CubeError;
+use crate::cube::options::CubeOptions;
 use crate::cube::wavelengths::Wavelengths;
 use crate::cube::window::{Conversion, Opened, Pixels, Source, Values, Window};
 use crate::zarr::{ChunkError, ZarrArray, ZarrFault};

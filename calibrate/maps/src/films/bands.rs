@@ -205,10 +205,27 @@ const UNEVEN: f64 = 0.005;
 const EXPLAINED: f64 = 2.0;
 
 /// Reflectance of the bare ground of a painting in the scan.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(try_from = "GroundKeys")]
 pub struct Ground {
     nm: Vec<f64>,
     reflectance: Vec<f64>,
+}
+
+/// The keys of a ground, before we check their values.
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct GroundKeys {
+    nm: Vec<f64>,
+    reflectance: Vec<f64>,
+}
+
+impl TryFrom<GroundKeys> for Ground {
+    type Error = MapError;
+
+    fn try_from(keys: GroundKeys) -> Result<Self, MapError> {
+        Self::new(keys.nm, keys.reflectance)
+    }
 }
 
 impl Ground {

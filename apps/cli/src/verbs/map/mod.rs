@@ -1,7 +1,5 @@
 //! `impasto map`: which pigments of a library are where in a spectral scan.
 //!
-//! Options of a map: which pigments take part, and how far the library may err.
-//!
 //! Options for how a scan is read.
 //!
 //! Text, JSON and CSV of maps beside the truth of a simulated scan.
@@ -13,15 +11,15 @@ mod page;
 use std::path::{Path, PathBuf};
 
 use calibrate::remark::Remark;
-use calibrate::{PigmentLibrary, Residuals};
-use clap::Args;
+use clap::builder::NonEmptyStringValueParser;
+use clap::{Arg, Args, ValueHint};
 use documents::Task;
-use maps::cube::{CubeOptions, CubeScale, DarkReading};
+use maps::cube::{CubeOptions, CubeScale};
 use maps::pictures::Overview;
 use maps::truth::{CHI2_RISEN, Comparison, Truth, compare};
 use maps::{
-    Book, Cube, FoundColumn, Ground, MapSettings, ModelError, PigmentGroup, Region, Spot,
-    StoreMode, StoredMaps, SurveyedScan,
+    Book, Cube, FoundColumn, MapRequest, MapRequestError, ModelError, Spot, StoreMode, StoredMaps,
+    SurveyedScan,
 };
 use serde_json::{Value, json};
 
@@ -30,6 +28,7 @@ use crate::failure::{Context, Failure, Result};
 use crate::library_choice::chosen;
 use crate::output::OutputFolder;
 use crate::progress::{Progress, Waiting};
+use crate::request_options::{CommandLine, RequestOptions};
 
 /// Squares along the longer side of the pictures.
 const PICTURE: usize = 1600;
@@ -59,16 +58,9 @@ pub(crate) struct Map {
     /// A folder for pictures of the maps (PNG) and a page that shows them
     #[arg(long, value_name = "FOLDER", requires = "output")]
     pictures: Option<PathBuf>,
-    /// Rows and columns to map, from 0 and without the last, such as 0..512,100..300 [default: all]
-    #[arg(long, value_name = "ROWS,COLUMNS")]
-    region: Option<String>,
     /// The file of a survey to use; or to write, if there is none of this name
     #[arg(long, value_name = "JSON")]
     survey: Option<PathBuf>,
-    /// A pixel or region to compare, its measured spectrum beside that of the mixture that explains it, such
-    /// as 120,40 or 120..124,40..44; may be repeated
-    #[arg(long, value_name = "ROWS,COLUMNS")]
-    spot: Vec<String>,
     /// Compare the maps with the truth that `impasto simulate-scan` wrote: precision and recall of presence, error of
     /// the shares, by the kind of paint and its tone
     #[arg(long, value_name = "FOLDER", requires = "output")]
@@ -78,8 +70,8 @@ pub(crate) struct Map {
     least_share: f64,
     #[command(flatten)]
     reading: ScanOptions,
-    #[command(flatten)]
-    pigments: PigmentOptions,
+    #[command(flatten, next_help_heading = "Pigments")]
+    request: RequestOptions<MapRequest>,
     /// Print JSON: palette, groups, pixels, spots, truth, and of maps their hashes and settings
     #[arg(long)]
     json: bool,
@@ -88,13 +80,45 @@ pub(crate) struct Map {
     csv: bool,
 }
 
+impl CommandLine for MapRequest {
+    fn adapted(key: &str, option: Arg) -> Arg {
+        match key {
+            "at_most" => option.value_name("N").hide_default_value(true),
+            "palette" => option.value_name("NAME"),
+            "groups" => option.long("group").value_name("NAME=PIGMENT,.."),
+            "noise" => option.value_name("SD").allow_hyphen_values(false),
+            "residuals" => path(option, "FILE"),
+            "model_error" => {
+                let option = option.value_name("0.05").allow_hyphen_values(false);
+                option.conflicts_with("residuals")
+            }
+            "ground" => option.value_name("ROWS,COLUMNS|FILE"),
+            "penalty" => option.value_name("N").hide_default_value(true).allow_hyphen_values(false),
+            // After --pictures and after --survey.
+            "region" => {
+                option.value_name("ROWS,COLUMNS").help_heading(None::<&str>).display_order(2)
+            }
+            "spots" => {
+                let option = option.long("spot").value_name("ROWS,COLUMNS");
+                option.help_heading(None::<&str>).display_order(4)
+            }
+            _ => option,
+        }
+    }
+}
+
+/// The option with a path as its value.
+fn path(option: Arg, value: &'static str) -> Arg {
+    let option = option.value_name(value).value_hint(ValueHint::AnyPath);
+    option.value_parser(NonEmptyStringValueParser::new())
+}
+
 impl Map {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
-        let region = self.region.as_deref().map(region).transpose()?;
+        let request = self.request.request()?;
         let inputs = [self.scan.clone()];
         let folder = |path: &PathBuf| OutputFolder::open(path, &inputs);
         let pictures = self.pictures.as_ref().map(folder).transpose()?;
-        let spots = self.spot.iter().map(|text| spot(text)).collect::<Result<Vec<Region>>>()?;
         let truth = self.truth.as_ref().map(Truth::open).transpose()?;
         if !(0.0..1.0).contains(&self.least_share) {
             return Err(Failure::usage(
@@ -107,19 +131,12 @@ impl Map {
         for remark in cube.remarks() {
             console.remark(remark)?;
         }
-        let settings = self.pigments.settings(&cube, &library)?;
-        let waiting = Waiting::new("surveying", console.shows_progress());
         let known = self.survey.as_ref().filter(|path| path.exists());
-        let scan = match known {
-            Some(path) => {
-                let book = Book::from_json(&crate::readings::text(path)?)
-                    .context(|| format!("{} cannot be used", path.display()))?;
-                SurveyedScan::with_book(cube, &library, &settings, region, book)?
-            }
-            None => SurveyedScan::survey(cube, &library, &settings, region, &Task::default())?,
-        };
+        let book = known.map(|path| book(path)).transpose()?;
+        let waiting = Waiting::new("surveying", console.shows_progress());
+        let scan = request.survey(cube, &library, book, &Task::default()).map_err(failure)?;
         drop(waiting);
-        console.remarks(self.pigments.remark(&scan).as_slice())?;
+        console.remarks(remark(&request, &scan).as_slice())?;
         if let (Some(path), None) = (&self.survey, known) {
             documents::file::write_whole(path, scan.book().to_json()?.as_bytes())?;
             console.wrote(path)?;
@@ -134,8 +151,7 @@ impl Map {
             compared =
                 truth.as_ref().map(|truth| compare(&maps, truth, self.least_share)).transpose()?;
         }
-        let spots = spots.into_iter().map(|region| Ok(scan.spot(&library, region)?));
-        let spots = spots.collect::<Result<Vec<Spot>>>()?;
+        let spots = request.spots_of(&scan, &library)?;
         if let (Some(folder), Some(overview)) = (pictures, &mapped) {
             page::write(&folder, &scan, overview, (&library, &spots))?;
             folder.told(console)?;
@@ -178,149 +194,32 @@ impl Map {
     }
 }
 
-/// Parses `ROWS,COLUMNS`, each `FIRST..END`.
-fn region(text: &str) -> Result<Region> {
-    rectangle(text).ok_or_else(|| {
-        Failure::usage(
-            format!("--region takes rows and columns, found `{text}`"),
-            "try --region 0..512,100..300",
-        )
-    })
+/// Reads the book of an earlier survey.
+fn book(path: &Path) -> Result<Book> {
+    let book = Book::from_json(&crate::readings::text(path)?);
+    book.context(|| format!("{} cannot be used", path.display()))
 }
 
-/// Parses `ROW,COLUMN` or `ROWS,COLUMNS`.
-fn spot(text: &str) -> Result<Region> {
-    let range = |part: &str| {
-        let (first, end) = part.split_once("..").unwrap_or((part, part));
-        let (first, end): (usize, usize) = (first.trim().parse().ok()?, end.trim().parse().ok()?);
-        Some(first..if part.contains("..") { end } else { end.checked_add(1)? })
-    };
-    let found = text
-        .split_once(',')
-        .and_then(|(rows, columns)| Some(Region { rows: range(rows)?, columns: range(columns)? }));
-    found.filter(|region| !region.rows.is_empty() && !region.columns.is_empty()).ok_or_else(|| {
-        Failure::usage(
-            format!("--spot takes a row and a column, or rows and columns, found `{text}`"),
-            "try --spot 120,40 or --spot 120..124,40..44",
-        )
-    })
-}
-
-/// Which pigments take part, and how they are told.
-#[derive(Debug, Args)]
-#[command(next_help_heading = "Pigments")]
-struct PigmentOptions {
-    /// Most pigments of one pixel, 1 to 4 [default: 3]
-    #[arg(long, value_name = "N")]
-    at_most: Option<usize>,
-    /// A pigment that may take part; may be repeated [default: all whose S is known]
-    #[arg(long, value_name = "NAME")]
-    palette: Vec<String>,
-    /// Pigments that are mapped as one, such as `whites=Lead White,Zinc White`; may be repeated
-    #[arg(long, value_name = "NAME=PIGMENT,..")]
-    group: Vec<String>,
-    /// Map each pigment by itself, also those that the bands cannot tell apart
-    #[arg(long)]
-    apart: bool,
-    /// Standard deviation of the noise of a band, as a fraction [default: that of the white reading, else
-    /// 0.003]
-    #[arg(long, value_name = "SD")]
-    noise: Option<f64>,
-    /// Errors of mixtures that the library had not seen, from `impasto validate READINGS --residuals FILE`
-    /// [default: for the oils that ship their own]
-    #[arg(long, value_name = "FILE")]
-    residuals: Option<PathBuf>,
-    /// How far K and S of the library may be off, as a fraction [default: 0.1 for a library without
-    /// residuals]
-    #[arg(long, value_name = "0.05", conflicts_with = "residuals")]
-    model_error: Option<f64>,
-    /// The bare ground, whose pixels are told as ground rather than mapped as paint: rows and columns of the scan,
-    /// such as 0..20,0..100, or a file with its reflectance
-    #[arg(long, value_name = "ROWS,COLUMNS|FILE")]
-    ground: Option<String>,
-    /// Amount by which a pigment that the survey does not find in the palette must lower chi-square to be told
-    /// [default: 2]
-    #[arg(long, value_name = "N")]
-    penalty: Option<f64>,
-}
-
-impl PigmentOptions {
-    /// Settings of a map of the scan `cube` with `library`.
-    fn settings(&self, cube: &Cube, library: &PigmentLibrary) -> Result<MapSettings> {
-        let usual = MapSettings::default();
-        let groups = self.group.iter().map(|text| group(text)).collect::<Result<_>>()?;
-        let of_white = cube.noise_of_white().map(|noise| noise.max(usual.sensor_noise));
-        let residuals = self.residuals.as_ref().map(|path| -> Result<ModelError> {
-            Ok(ModelError::Residuals(Residuals::open(path)?))
-        });
-        let stated = self.model_error.map(ModelError::Stated);
-        let settings = MapSettings {
-            at_most: self.at_most.unwrap_or(usual.at_most),
-            palette: self.palette.clone(),
-            groups,
-            group_alike: !self.apart,
-            sensor_noise: self.noise.or(of_white).unwrap_or(usual.sensor_noise),
-            penalty: self.penalty.unwrap_or(usual.penalty),
-            model_error: residuals.transpose()?.or(stated),
-            ground: self.ground.as_deref().map(|text| ground(text, cube)).transpose()?,
-        };
-        if let (Err(error), Some(path)) = (settings.model_error_of(library), &self.residuals) {
-            return Err(Failure::from(error).within(format!("{} cannot be used", path.display())));
+/// The error of a request in the words of the command line.
+fn failure(error: MapRequestError) -> Failure {
+    match error {
+        MapRequestError::GroundFile(reason) => {
+            Failure::from(reason).within("--ground takes a region or a file")
         }
-        Ok(settings)
-    }
-
-    /// Remark on a library about whose errors nothing is known.
-    fn remark(&self, scan: &SurveyedScan) -> Option<Remark> {
-        let assumed = self.model_error.is_none()
-            && matches!(scan.mapper().model_error(), ModelError::Stated(_));
-        assumed.then(|| {
-            let words = scan.mapper().model_error().words();
-            Remark::note(format!("this library is taken to have {words}")).with_hint(
-                "`impasto validate READINGS [residuals=FILE.json]` measures its errors, and [residuals=FILE.json] gives them to the map",
-            )
-        })
+        error => error.into(),
     }
 }
 
-/// The ground of a map: the mean of a region of the scan, or the reflectance in a file.
-fn ground(text: &str, cube: &Cube) -> Result<Ground> {
-    if let Some(region) = rectangle(text) {
-        return Ok(region.ground(cube)?);
-    }
-    let opened = spectra::read_spectrum(text)
-        .map_err(|error| Failure::from(error).within("--ground takes a region or a file"))?;
-    let reflectance = opened.spectrum.reflectance().map_err(Failure::from)?;
-    let nm = reflectance.grid().wavelengths_nm().collect();
-    Ok(Ground::new(nm, reflectance.values().to_vec())?)
-}
-
-/// Parses `ROWS,COLUMNS`, each `FIRST..END`; `None` for any other text.
-fn rectangle(text: &str) -> Option<Region> {
-    let range = |part: &str| {
-        let (first, end) = part.split_once("..")?;
-        Some(first.trim().parse().ok()?..end.trim().parse().ok()?)
-    };
-    let (rows, columns) = text.split_once(',')?;
-    Some(Region { rows: range(rows)?, columns: range(columns)? })
-}
-
-/// Parses a group, `NAME=PIGMENT,..`.
-fn group(text: &str) -> Result<PigmentGroup> {
-    let found = text.split_once('=').map(|(name, pigments)| PigmentGroup {
-        name: name.trim().to_owned(),
-        pigments: pigments.split(',').map(|name| name.trim().to_owned()).collect(),
-    });
-    found
-        .filter(|group: &PigmentGroup| {
-            !group.name.is_empty() && group.pigments.iter().all(|name| !name.is_empty())
-        })
-        .ok_or_else(|| {
-            Failure::usage(
-                format!("--group takes NAME=PIGMENT,PIGMENT.., found `{text}`"),
-                "try --group \"whites=Lead White,Zinc White\"",
-            )
-        })
+/// Remark on a library about whose errors nothing is known.
+fn remark(request: &MapRequest, scan: &SurveyedScan) -> Option<Remark> {
+    let assumed = request.model_error.is_none()
+        && matches!(scan.mapper().model_error(), ModelError::Stated(_));
+    assumed.then(|| {
+        let words = scan.mapper().model_error().words();
+        Remark::note(format!("this library is taken to have {words}")).with_hint(
+            "`impasto validate READINGS [residuals=FILE.json]` measures its errors, and [residuals=FILE.json] gives them to the map",
+        )
+    })
 }
 
 /// How the scan is read.
@@ -333,55 +232,47 @@ struct ScanOptions {
     /// Values are fractions, a white near 1
     #[arg(long)]
     fraction: bool,
-    /// A scan of a white, for scans of raw counts
-    #[arg(long, value_name = "SCAN")]
-    white_reading: Option<PathBuf>,
-    /// A scan with the shutter closed; 0 if it is subtracted already
-    #[arg(long, value_name = "SCAN", requires = "white_reading")]
-    dark_reading: Option<PathBuf>,
-    /// The white's own reflectance [default: 1]
-    #[arg(long, value_name = "0.99", requires = "white_reading")]
-    tile: Option<f64>,
-    /// Largest count of the detector, such as 4095 [default: guessed]
-    #[arg(long, value_name = "COUNT")]
-    full_scale: Option<f64>,
-    /// File with the wavelength of each band in nm, for scans that name none
-    #[arg(long, value_name = "FILE")]
-    wavelengths: Option<PathBuf>,
-    /// Name of the array of a Zarr group that holds several
-    #[arg(long, value_name = "NAME")]
-    variable: Option<String>,
+    #[command(flatten)]
+    options: RequestOptions<CubeOptions>,
+}
+
+impl CommandLine for CubeOptions {
+    fn adapted(key: &str, option: Arg) -> Arg {
+        match key {
+            "white_reading" => path(option, "SCAN"),
+            "dark_reading" => path(option, "SCAN").requires("white_reading"),
+            "tile" => {
+                let option = option.value_name("0.99").hide_default_value(true);
+                option.allow_hyphen_values(false).requires("white_reading")
+            }
+            "full_scale" => option.value_name("COUNT").allow_hyphen_values(false),
+            "wavelengths" => path(option, "FILE"),
+            "variable" => option.value_name("NAME"),
+            _ => option,
+        }
+    }
+
+    fn is_option(key: &str) -> bool {
+        !matches!(key, "scale" | "scratch")
+    }
 }
 
 impl ScanOptions {
     /// Opens the scan at `path`.
     fn cube(&self, path: &Path) -> Result<Cube> {
-        if self.tile.is_some_and(|tile| !(tile > 0.0 && tile <= 1.2)) {
+        let options = self.options.request()?;
+        if !(options.tile > 0.0 && options.tile <= 1.2) {
             return Err(Failure::usage(
                 "--tile takes the reflectance of the white, above 0 and up to 1.2",
                 "leave it out for a white that reflects everything",
             ));
         }
-        let dark_reading = match &self.dark_reading {
-            None => DarkReading::Missing,
-            Some(path) if path.as_os_str() == "0" => DarkReading::Subtracted,
-            Some(path) => DarkReading::File(path.clone()),
+        let scale = match (self.percent, self.fraction) {
+            (true, _) => CubeScale::Percent,
+            (_, true) => CubeScale::Fraction,
+            _ => CubeScale::ByFile,
         };
-        let options = CubeOptions {
-            white_reading: self.white_reading.clone(),
-            dark_reading,
-            tile: self.tile.unwrap_or(1.0),
-            scale: match (self.percent, self.fraction) {
-                (true, _) => CubeScale::Percent,
-                (_, true) => CubeScale::Fraction,
-                _ => CubeScale::ByFile,
-            },
-            full_scale: self.full_scale,
-            wavelengths: self.wavelengths.clone(),
-            variable: self.variable.clone(),
-            scratch: None,
-        };
-        Ok(Cube::open_with(path, &options)?)
+        Ok(Cube::open_with(path, &CubeOptions { scale, ..options })?)
     }
 }
 
