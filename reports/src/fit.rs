@@ -78,7 +78,7 @@ fn histogram(subject: &Subject<'_>) -> Figure {
         name: "errors",
         title: "Colour errors",
         caption: &format!(
-            "How many samples have which error, {}. The error of mixtures left out is that to expect of a mixture nobody measured. Samples with a pigment whose K and S are no measurement are not counted.",
+            "How many samples have which error, {}. The error of mixtures left out is that to expect of a mixture nobody measured. Samples with a pigment whose K and S are not measurement are not counted.",
             subject.light()
         ),
         alt: "Histograms of colour errors, with mean and ninetieth percentile.",
@@ -102,7 +102,7 @@ fn table(subject: &Subject<'_>) -> Table {
         let squares = film.predicted.iter().zip(&film.measured).map(|(p, m)| (p - m).powi(2));
         let rms = (squares.sum::<f64>() / film.measured.len() as f64).sqrt();
         let mut remarks = Vec::new();
-        remarks.extend(film.unsure.then_some("a pigment's K and S are no measurement"));
+        remarks.extend(film.unsure.then_some("a pigment's K and S are not measured"));
         remarks.extend(film.excluded.then_some("excluded from the fit"));
         let is_needed = validation.is_some_and(|v| v.needed.contains(&film.sample));
         remarks.extend(is_needed.then_some("cannot be left out"));
@@ -294,7 +294,7 @@ fn samples_figure(
         name: &name,
         title: &format!("Measured and fitted reflectance of every sample{part}"),
         caption: &format!(
-            "Dots are measured, lines fitted; worst sample first, its recipe below its name. The number is the colour error in CIEDE2000 ({}); the patches show the measured and the fitted colour. A star marks a recipe with a pigment whose K and S are no measurement.",
+            "Dots are measured, lines fitted; worst sample first, its recipe below its name. The number is the colour error in CIEDE2000 ({}); the patches show the measured and the fitted colour. A star marks a recipe with a pigment whose K and S are not measurement.",
             subject.light()
         ),
         alt: &format!(

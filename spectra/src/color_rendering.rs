@@ -70,7 +70,7 @@ impl ColorRendering {
 pub enum ColorRenderingError {
     /// The light is coloured.
     #[error(
-        "{name} is no white light: it is farther than 0.05 from every black body in CIE 1960 (u, v)"
+        "{name} is not a white light: it is farther than 0.05 from every black body in CIE 1960 (u, v)"
     )]
     #[hint("colour rendering compares a lamp with a white of its temperature")]
     NotWhite {

@@ -77,6 +77,6 @@ fn part(arguments: &[String]) -> Outcome {
             print!("{USAGE}");
             Ok(())
         }
-        _ => Err(format!("`{}` is no part\n\n{USAGE}", words.join(" "))),
+        _ => Err(format!("`{}` is not a part\n\n{USAGE}", words.join(" "))),
     }
 }

@@ -81,7 +81,7 @@ def spent(work: Callable[[], object], client: Client | None = None) -> Spent:
 
     start = now()
     work()
-    # Asking the workers is no part of the time.
+    # Asking the workers is not part of the time.
     clock, here = time.perf_counter(), time.process_time()
     return Spent(clock - start.clock, here - start.here, now().workers - start.workers)
 

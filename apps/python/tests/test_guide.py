@@ -17,7 +17,7 @@ def test_the_guide_runs_as_printed(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     shutil.copy(OILS_CSV, tmp_path)
     monkeypatch.chdir(tmp_path)
     guide = ROOT / "docs/guide/python.md"
-    # The fences of Markdown are no part of the expected output.
+    # The fences of Markdown are not part of the expected output.
     text = guide.read_text().replace("```python\n", "\n").replace("```\n", "\n")
     test = doctest.DocTestParser().get_doctest(text, {}, "python.md", str(guide), 0)
     runner = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS)

@@ -47,7 +47,7 @@ pub struct Shortcut {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum InvalidShortcut {
     /// A word of the text is neither a key nor a modifier.
-    #[error("`{0}` is no key")]
+    #[error("`{0}` is not a key")]
     Unknown(String),
     /// The key has a meaning that you cannot change.
     #[error("{0}")]

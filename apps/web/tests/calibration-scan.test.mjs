@@ -236,7 +236,7 @@ test("refusals are the program's, in the words of the page", async () => {
   assert.match(wanted, /describes \d+ bytes/);
   await told([header, data], new RegExp(wanted.replace(/[.*+?^${}()|[\]\\]/g, "\\$&")));
   await told([header], /short\.hdr: the data of this header are not beside it[^]*header \(\.hdr\) and its data file together/);
-  await told([data], /short\.img: is no cube that can be read, and no header of ENVI is beside it/);
+  await told([data], /short\.img: is not a cube that can be read, and no header of ENVI is beside it/);
   await told([header, { name: "short.hdr", bytes: data.bytes }], /two files are named short\.hdr/);
   await told([{ name: "old.mat", bytes: "MATLAB 5.0 MAT-file" }], /old\.mat: is a MATLAB file/);
   await drop(scan("fine", {}, rest));

@@ -448,7 +448,7 @@ pub enum FittingError {
     #[fault(Setting)]
     AbsoluteOptions,
     /// A validation of absolute amounts cannot be limited to pigments.
-    #[error("a validation with certain pigments needs relative amounts")]
+    #[error("only a validation of relative amounts can be limited to some pigments")]
     #[hint("leave out [with]")]
     #[fault(Setting)]
     AbsoluteWith,

@@ -383,7 +383,7 @@ pub enum MapError {
         value: f64,
     },
     /// The number of reflectances is not a whole number of pixels.
-    #[error("{values} reflectances are no whole number of pixels of {bands} bands")]
+    #[error("{values} reflectances do not make whole pixels of {bands} bands")]
     #[hint("give the reflectances pixel after pixel, all bands of each")]
     Length {
         /// Number of reflectances.

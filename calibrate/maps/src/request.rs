@@ -61,11 +61,11 @@ pub struct MapRequest {
     /// How far K and S of the library may be off, as a fraction [default: 0.1 for a library without
     /// residuals]
     pub model_error: Option<f64>,
-    /// The bare ground, whose pixels are told as ground rather than mapped as paint: rows and columns of the scan,
+    /// The bare ground, which is then mapped as ground instead of paint: rows and columns of the scan,
     /// such as 0..20,0..100, or a file with its reflectance
     #[schemars(schema_with = "ground_schema")]
     pub ground: Option<GroundSource>,
-    /// Amount by which a pigment that the survey does not find in the palette must lower chi-square to be told
+    /// Amount by which a pigment that the survey does not find in the palette must lower chi-square to be reported
     /// [default: 2]
     pub penalty: f64,
     /// Rows and columns to map, from 0 and without the last, such as 0..512,100..300 [default: all]

@@ -189,7 +189,7 @@ fn bare_ground_is_told_and_paint_is_not_taken_for_it() {
         }));
     }
     let book = knows.survey(&spectra, &Task::default()).unwrap();
-    assert_eq!(book.entries.len(), 300, "the ground is no part of the survey");
+    assert_eq!(book.entries.len(), 300, "the ground is not part of the survey");
     let maps = knows.map_block(&book, &spectra).unwrap();
     let told = maps.mask.iter().map(|mask| *mask == Mask::Ground).collect::<Vec<bool>>();
     assert_eq!(told.iter().filter(|ground| **ground).count(), 40, "{:?}", maps.mask);

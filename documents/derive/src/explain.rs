@@ -30,7 +30,7 @@ pub(crate) fn explain(input: &DeriveInput) -> Result<TokenStream> {
                 variants.push(Variant::of(path, variant.span(), &variant.fields, advice)?);
             }
         }
-        Data::Union(_) => return Err(Error::new_spanned(&input.ident, "a union is no error")),
+        Data::Union(_) => return Err(Error::new_spanned(&input.ident, "a union is not an error")),
     }
     let whole = match &input.data {
         Data::Enum(_) => Advice::of(&input.attrs)?,
@@ -237,7 +237,7 @@ mod tests {
             ("enum E { #[hint(inner b)] A(X) }", "nothing more fits here"),
             ("#[fault(Data)] struct E;", "a fault is Input, Setting or Environment"),
             ("#[fault(Input)] #[fault(Setting)] struct E;", "a second `fault`"),
-            ("union E { a: u8 }", "a union is no error"),
+            ("union E { a: u8 }", "a union is not an error"),
         ] {
             let error = explain(&syn::parse_str(text).unwrap()).unwrap_err().to_string();
             assert!(error.starts_with(wanted), "{text}: {error}");

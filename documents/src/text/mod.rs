@@ -279,7 +279,7 @@ pub enum TextError {
         most: usize,
     },
     /// The file holds bytes that are not UTF-8.
-    #[error("{file}, line {line}: this is no UTF-8 text, found byte `0x{byte:02x}`")]
+    #[error("{file}, line {line}: this is not UTF-8 text, found byte `0x{byte:02x}`")]
     #[hint("save the file as UTF-8")]
     Encoding {
         /// Name of the file.
@@ -482,7 +482,10 @@ mod tests {
         let path = folder.path().join("latin.toml");
         std::fs::write(&path, b"a = 1\nb = \"\xe9\"").unwrap();
         let (message, hint) = message_and_hint(read_text(&path).unwrap_err());
-        assert!(message.ends_with("line 2: this is no UTF-8 text, found byte `0xe9`"), "{message}");
+        assert!(
+            message.ends_with("line 2: this is not UTF-8 text, found byte `0xe9`"),
+            "{message}"
+        );
         assert_eq!(hint, "save the file as UTF-8");
         let missing = read_text(&folder.path().join("none")).unwrap_err();
         assert!(matches!(missing, TextError::File(_)) && missing.hint().is_some());

@@ -91,7 +91,7 @@ pub enum StrokeError {
         cell_mm: f64,
     },
     /// A number is infinite or NaN.
-    #[error("sample {sample}: {field} is no number: `{found}`")]
+    #[error("sample {sample}: {field} is not a number: `{found}`")]
     #[hint("leave the sample out")]
     NoNumber {
         /// Index of the sample.
@@ -755,7 +755,7 @@ mod tests {
         let error = refused_second(Sample { tilt_y_deg: -91.0, ..SAMPLE });
         assert_eq!(error.to_string(), "sample 1: tilt_y_deg is from -90 to 90: `-91`");
         let error = refused_second(Sample { x_mm: f64::NAN, ..SAMPLE });
-        assert_eq!(error.to_string(), "sample 1: x_mm is no number: `NaN`");
+        assert_eq!(error.to_string(), "sample 1: x_mm is not a number: `NaN`");
         let error = refused_second(Sample { twist_deg: f64::INFINITY, ..SAMPLE });
         assert!(matches!(error, StrokeError::NoNumber { field: "twist_deg", .. }), "{error}");
         let error = refused_second(Sample { seconds: -0.1, ..SAMPLE });

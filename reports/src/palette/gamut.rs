@@ -68,7 +68,7 @@ fn planes(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure
         .with_key(KeySymbol::Dashes, SERIES[0], "sRGB");
 
     let caption = format!(
-        "Each cell has the colour of the lightest of {} mixtures in it: every two pigments at 21 ratios, alone and with {} or the darkest pigment, random mixtures of three and four, and mixtures of neighbours where there were gaps. The line joins the outermost mixture of each of {SECTORS} sectors around grey; it is no convex hull, and what was not tried may reach a little further. Dots are the pigments by themselves, named from a chroma of {NAMED} on. {} {}.",
+        "Each cell has the colour of the lightest of {} mixtures in it: every two pigments at 21 ratios, alone and with {} or the darkest pigment, random mixtures of three and four, and mixtures of neighbours where there were gaps. The line joins the outermost mixture of each of {SECTORS} sectors around grey; it is not a convex hull, and what was not tried may reach a little further. Dots are the pigments by themselves, named from a chroma of {NAMED} on. {} {}.",
         gamut.samples.len(),
         thinner(palette),
         films(palette),

@@ -167,7 +167,7 @@ pub enum ReflectanceError {
     #[hint(if *found == MeasuredQuantity::Counts, "reference counts to a white and a dark reading first")]
     #[hint(
         if *found == MeasuredQuantity::Power,
-        "the light of a lamp is no reflectance; it can be the light under which colours are seen"
+        "the light of a lamp is not a reflectance; it can be the light under which colours are seen"
     )]
     #[hint("export the spectrum as reflectance")]
     Quantity {

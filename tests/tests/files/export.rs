@@ -95,7 +95,7 @@ fn maps_that_are_no_amounts_are_refused() {
         (vec![], "found `0 x 0`"),
         (vec![map("A", |_| 0.0), odd], "`B` has another size than the picture of 4 x 3"),
         (vec![map("A", |i| if i == 6 { -0.5 } else { 0.0 })], "A at x 2, y 1 is 0 and up"),
-        (vec![map("A", |i| if i == 6 { f32::NAN } else { 0.0 })], "A at x 2, y 1 is no finite"),
+        (vec![map("A", |i| if i == 6 { f32::NAN } else { 0.0 })], "A at x 2, y 1 is not a finite"),
     ];
     for (maps, wanted) in cases {
         let error = pigment_maps("x", &maps, 0.1).unwrap_err().to_string();
@@ -287,7 +287,7 @@ fn pictures_without_colors_or_cells_are_refused() {
     let mut picture = ramp();
     picture[(7, 3)][1] = f32::NAN;
     let error = png8(&picture, 0.1).unwrap_err();
-    assert_eq!(error.to_string(), "the colour at x 7, y 3 is no finite number, found `NaN`");
+    assert_eq!(error.to_string(), "the colour at x 7, y 3 is not a finite number, found `NaN`");
     let nothing = Field::filled(0, 3, [0.0; 4]);
     assert_eq!(png16(&nothing, 0.1).unwrap_err(), ExportError::Size { width: 0, height: 3 });
     for cell_mm in [0.0, -1.0, f64::NAN, 1e9] {

@@ -186,5 +186,5 @@ fn software_is_used_only_when_asked_for() {
     let found = adapters();
     let used = best(&found, BackendChoice::Auto);
     assert!(used.is_none_or(|adapter| adapter.kind != Kind::Software), "{used:?}");
-    assert!(best(&found, BackendChoice::Cpu).is_none(), "the processor is no adapter");
+    assert!(best(&found, BackendChoice::Cpu).is_none(), "the processor is not an adapter");
 }

@@ -111,7 +111,7 @@ fn limits_of_recipes_hold_by_spectrum_too() {
     let names = shares(&library, &without.recipes[0]);
     assert!(names.iter().all(|(name, _)| name != "Cobalt Blue") && without.nearest() > 1.0);
     assert!(without.hint().is_some() && free.hint().is_none());
-    assert!(without.by_cie1976.is_empty(), "CIE 1976 is no measure of spectra");
+    assert!(without.by_cie1976.is_empty(), "CIE 1976 is not a measure of spectra");
     let fixed = of(&|options| {
         options.with = vec![RequiredName { name: "Viridian".to_owned(), share: Some(0.3) }];
     });

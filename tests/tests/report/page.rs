@@ -259,7 +259,7 @@ fn pigments_without_a_known_s_are_marked() {
         assert!(text(name, "svg").contains("S unknown"), "{name}");
     }
     let page = std::fs::read_to_string(whole().path("out/report.html")).unwrap();
-    assert!(page.contains("K and S are no measurement"), "the table says so");
+    assert!(page.contains("K and S are not measured"), "the table says so");
 }
 
 #[test]

@@ -88,7 +88,7 @@ impl Plan {
         }
         if request.noise.is_some() && path.is_none() {
             return Err(Failure::usage(
-                "--noise is for swatches that a library chooses",
+                "--noise works only where a library chooses the swatches",
                 "name a library of similar paint first, or leave --noise out",
             ));
         }

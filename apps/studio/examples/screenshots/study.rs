@@ -397,7 +397,7 @@ fn recipe(parts: &str) -> Recipe {
                 "U" => "Ultramarine",
                 "P" => "Prussian Blue",
                 "K" => "Bone Black",
-                _ => panic!("{letter} of \"{parts}\" is no paint"),
+                _ => panic!("{letter} of \"{parts}\" is not paint"),
             };
             (name.to_owned(), amount.parse().expect("parts are a number"))
         })

@@ -305,7 +305,7 @@ fn undone_and_forgotten_actions_do_not_hold_the_tour_up() {
     tour.next();
     assert!(!tour.observe(Facts::of(&painting)), "the stroke was there before");
     painting.history_done = 0;
-    assert!(!tour.observe(Facts::of(&painting)), "undo is no stroke");
+    assert!(!tour.observe(Facts::of(&painting)), "undo is not a stroke");
     add(&mut painting, "stroke, flat");
     assert!(tour.observe(Facts::of(&painting)), "a stroke after undo");
     assert_eq!(tour.step(), Some(TourStep::Mix));

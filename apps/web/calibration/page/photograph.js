@@ -16,7 +16,7 @@ export async function openPhotograph(file, take) {
     picture = await createImageBitmap(file);
   } catch {
     picture = null;
-    throw { message: `${file.name} is no picture that this browser reads`, hint: "choose a JPEG, PNG or WebP" };
+    throw { message: `${file.name} is not a picture that this browser reads`, hint: "choose a JPEG, PNG or WebP" };
   }
   const scale = Math.min(1, MOST / Math.max(picture.width, picture.height));
   const canvas = $("photo");

@@ -71,7 +71,7 @@ pub enum MeasurementError {
         nm: f64,
     },
     /// A header is a number outside the wavelengths at which paint is measured.
-    #[error("{place} is no wavelength from 200 to 2500 nm")]
+    #[error("{place} is not a wavelength from 200 to 2500 nm")]
     #[hint("a pigment's name must not be a number")]
     WavelengthRange {
         /// File, row and column.

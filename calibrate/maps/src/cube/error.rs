@@ -59,7 +59,7 @@ pub enum CubeError {
         sizes: String,
     },
     /// The values are counts of a detector, or a multiple of reflectance that we cannot find out.
-    #[error("{}: the values are no reflectances: the largest read is `{largest}`", path.display())]
+    #[error("{}: the values are not reflectances: the largest read is `{largest}`", path.display())]
     #[hint(
         "raw counts need [white_reading=FILE] and [dark_reading=FILE]; reflectances times a factor need [scale=10000] with that factor"
     )]
@@ -174,12 +174,12 @@ const OTHERS: [(&[u8], &str, &str); 5] = [
     ),
     (
         b"\x89PNG",
-        "one picture, which is no cube",
+        "one picture, which is not a cube",
         "name the folder that holds a picture for each wavelength",
     ),
     (
         b"\xff\xd8\xff",
-        "a JPEG picture, which is no cube",
+        "a JPEG picture, which is not a cube",
         "name the folder that holds a picture for each wavelength",
     ),
 ];

@@ -128,7 +128,7 @@ pub(crate) fn interpret(
 
 fn check_has_light(scan: &Opened, largest: &[f32]) -> Result<(), CubeError> {
     let problem = match largest.last() {
-        None => "no sampled pixel has data: all are marked as ignored or are no numbers",
+        None => "no sampled pixel has data: all are marked as ignored or are not numbers",
         Some(most) if *most <= 0.0 => "all sampled values are 0 or less: the scan is dark",
         _ => return Ok(()),
     };
@@ -220,7 +220,7 @@ fn check_usable(scan: &Opened, sample: &Sample, conversion: &Conversion) -> Resu
             "have reflectances below -0.1 or above 1.2",
             "check the white reading, or give the value of a white with [scale]",
         ),
-        (Mask::NotFinite, "are no numbers", "check the export of the scan"),
+        (Mask::NotFinite, "are not numbers", "check the export of the scan"),
     ]
     .into_iter()
     .find(|(mask, ..)| 2 * counts[usize::from(mask.code())] > with_data)

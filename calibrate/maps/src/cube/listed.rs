@@ -76,7 +76,7 @@ fn without_header(files: &[ScanFile]) -> Result<CubeError, CubeError> {
     refuse_other_kinds(&first.name, &first.start(START as u64)?)?;
     Ok(CubeError::format(
         &first.name,
-        "is no cube that can be read, and no header of ENVI is beside it",
+        "is not a cube that can be read, and no header of ENVI is beside it",
         BOTH,
     ))
 }

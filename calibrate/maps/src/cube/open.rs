@@ -99,7 +99,7 @@ fn open_kind(path: &Path, options: &CubeOptions) -> Result<Opened, CubeError> {
     refuse_other_kinds(path, &start)?;
     Err(CubeError::format(
         path,
-        "is no cube that can be read, and no header is beside it",
+        "is not a cube that can be read, and no header is beside it",
         format!(
             "for plain numbers put an ENVI header beside it, as {}",
             path.with_extension("hdr").display()

@@ -36,7 +36,7 @@ pub(crate) fn wavelengths_of(path: &Path) -> Result<Vec<f64>, CubeError> {
                     path: path.to_owned(),
                     line: number,
                     key: line.chars().take(40).collect(),
-                    problem: "is no wavelength".to_owned(),
+                    problem: "is not a wavelength".to_owned(),
                     way_out: WAY_OUT.to_owned(),
                 });
             }
@@ -196,7 +196,7 @@ mod tests {
     #[test]
     fn faults_name_the_line() {
         let error = read("450\nblue\n").unwrap_err();
-        assert!(error.ends_with("wavelengths.txt: line 2: `blue` is no wavelength"), "{error}");
+        assert!(error.ends_with("wavelengths.txt: line 2: `blue` is not a wavelength"), "{error}");
         assert!(read("# nothing\n").unwrap_err().ends_with("holds no wavelengths"));
         assert!(read("1\n2\n300\n").unwrap_err().contains("the list runs from"));
     }

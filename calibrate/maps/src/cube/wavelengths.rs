@@ -29,7 +29,7 @@ fn factor(name: &str) -> Result<Option<f64>, String> {
         "cm" | "centimeter" | "centimeters" => Ok(Some(1e7)),
         "m" | "meter" | "meters" => Ok(Some(1e9)),
         "angstrom" | "angstroms" => Ok(Some(0.1)),
-        _ => Err(format!("has the unit `{}`, which is no length", name.trim())),
+        _ => Err(format!("has the unit `{}`, which is not a length", name.trim())),
     }
 }
 
@@ -42,7 +42,7 @@ impl Wavelengths {
         let told = unit.map(factor).transpose()?.flatten();
         if let Some(at) = values.iter().position(|value| !(value.is_finite() && *value > 0.0)) {
             return Err(format!(
-                "has `{}` as number {}, which is no wavelength",
+                "has `{}` as number {}, which is not a wavelength",
                 values[at],
                 at + 1
             ));
@@ -100,8 +100,8 @@ mod tests {
         }
         assert_eq!(nm(&[4000.0], Some("Angstroms")), Ok(vec![400.0]));
         let error = nm(&[1.0, 2.0], Some("Index")).unwrap_err();
-        assert_eq!(error, "has the unit `Index`, which is no length");
-        assert!(nm(&[20_000.0], Some("Wavenumber")).is_err(), "a wavenumber is no wavelength");
+        assert_eq!(error, "has the unit `Index`, which is not a length");
+        assert!(nm(&[20_000.0], Some("Wavenumber")).is_err(), "a wavenumber is not a wavelength");
     }
 
     #[test]
@@ -113,7 +113,7 @@ mod tests {
         let found = Wavelengths::of(&[0.4, 1.0], Some("Unknown")).unwrap();
         assert_eq!((found.nm, found.factor), (vec![400.0, 1000.0], 1000.0));
         assert!(found.remark.unwrap().ends_with("are taken for micrometres"));
-        assert!(nm(&[1.0, 31.0], None).is_err(), "numbers of bands are no wavelengths");
+        assert!(nm(&[1.0, 31.0], None).is_err(), "numbers of bands are not wavelengths");
     }
 
     #[test]

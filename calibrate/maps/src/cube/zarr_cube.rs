@@ -35,7 +35,7 @@ fn document(folder: &Path) -> Result<Value, CubeError> {
     let path = folder.join("zarr.json");
     let bytes = documents::file::read(&path)?;
     serde_json::from_slice(&bytes).map_err(|error| {
-        CubeError::data(&path, format!("is no JSON: {error}"), "copy or write the array again")
+        CubeError::data(&path, format!("is not JSON: {error}"), "copy or write the array again")
     })
 }
 

@@ -94,7 +94,7 @@ impl MapStore {
             (true, _) => {
                 let bytes = documents::file::read(&place)?;
                 let found: Value = serde_json::from_slice(&bytes).map_err(|error| {
-                    StoreError::Damaged { path: place, problem: format!("is no JSON: {error}") }
+                    StoreError::Damaged { path: place, problem: format!("is not JSON: {error}") }
                 })?;
                 if found["attributes"]["title"] != group["attributes"]["title"] {
                     return Err(exists("holds other data", false));

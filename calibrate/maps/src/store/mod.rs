@@ -53,7 +53,7 @@ impl StoredMaps {
         let damaged = |problem: String| StoreError::Damaged { path: file.clone(), problem };
         let bytes = documents::file::read(&file)?;
         let group: Value = serde_json::from_slice(&bytes)
-            .map_err(|error| damaged(format!("is no JSON: {error}")))?;
+            .map_err(|error| damaged(format!("is not JSON: {error}")))?;
         let attributes = group["attributes"].as_object().cloned().unwrap_or_default();
         let range = |key: &str| -> Option<Range<usize>> {
             let ends = attributes.get(key)?.as_array()?;

@@ -246,7 +246,7 @@ impl Truth {
         let damaged = |problem: String| TruthError::Damaged { path: file.clone(), problem };
         let bytes = documents::file::read(&file)?;
         let group: Value = serde_json::from_slice(&bytes)
-            .map_err(|error| damaged(format!("is no JSON: {error}")))?;
+            .map_err(|error| damaged(format!("is not JSON: {error}")))?;
         let attributes = &group["attributes"];
         let names = attributes["pigments"].as_array().filter(|_| attributes["title"] == TITLE);
         let Some(names) = names else {

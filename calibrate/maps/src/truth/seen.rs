@@ -247,7 +247,7 @@ pub enum TruthError {
     #[error(transparent)]
     Maps(#[from] StoreError),
     /// The folder holds something else.
-    #[error("{}: holds files that are no truth of a simulated scan", path.display())]
+    #[error("{}: holds files that are not the truth of a simulated scan", path.display())]
     #[hint("name another folder, or empty this one")]
     #[fault(Setting)]
     Exists {

@@ -246,7 +246,7 @@ fn pixels_are_spread_over_the_scan_and_sign_it() {
     let damaged = Cube::open(&path).unwrap();
     let left = damaged.spread(0..LINES, 0..SAMPLES, 1000).unwrap();
     assert_eq!((left.places.len(), left.looked_at), (LINES * SAMPLES - 1, LINES * SAMPLES));
-    assert!(!left.places.contains(&(3, 2)), "a pixel that is no number");
+    assert!(!left.places.contains(&(3, 2)), "a pixel that is not a number");
     assert_ne!(damaged.sign().unwrap(), sign, "another pixel");
 }
 
@@ -405,8 +405,8 @@ fn faults_of_the_header_name_line_and_key() {
         ),
         ("byte order = 0", "byte order = 2", "line 7: `byte order` must be 0 or 1, found `2`"),
         ("600.5", "60O.5", "line 10: `wavelength` has `60O.5` as number 3"),
-        ("Nanometers", "Index", "`wavelength` has the unit `Index`, which is no length"),
-        ("Nanometers", "Micrometers", "which are no Micrometers: these look like nm"),
+        ("Nanometers", "Index", "`wavelength` has the unit `Index`, which is not a length"),
+        ("Nanometers", "Micrometers", "which are not Micrometers: these look like nm"),
         (" 700}", " 700", "line 10: `wavelength` opens a brace that is never closed"),
         (
             "header offset",
@@ -488,13 +488,13 @@ fn counts_without_readings_are_refused_with_the_way_out() {
     let folder = tempfile::tempdir().unwrap();
     let path = write_envi(folder.path(), "scan", &header("bil", 1, ""), &in_order("bil"));
     let (found, hint) = refused(&path, &CubeOptions::default());
-    assert!(found.contains("the values are no reflectances: the largest read is `"), "{found}");
+    assert!(found.contains("the values are not reflectances: the largest read is `"), "{found}");
     assert!(hint.contains("`white_reading = FILE`") && hint.contains("`scale = 10000`"), "{hint}");
     let more = "data units = Radiance (uW/cm2/sr/nm)\n";
     let data: Vec<u8> = in_order("bil").iter().flat_map(|v| f32::from(*v).to_le_bytes()).collect();
     let path = write_envi(folder.path(), "radiance", &header("bil", 4, more), &data);
     let (found, _) = refused(&path, &CubeOptions::default());
-    assert!(found.contains("the values are no reflectances"), "{found}");
+    assert!(found.contains("the values are not reflectances"), "{found}");
 }
 
 #[test]
@@ -548,7 +548,7 @@ fn other_kinds_of_files_are_named() {
         (b"MATLAB 5.0 MAT-file", "is a MATLAB file", "scipy"),
         (b"\x89PNG\r\n\x1a\n", "is one picture", "folder"),
         (b"CDF\x01", "is a NetCDF file", "xarray"),
-        (b"hello", "is no cube that can be read, and no header is beside it", "scan.hdr"),
+        (b"hello", "is not a cube that can be read, and no header is beside it", "scan.hdr"),
     ] {
         let path = folder.path().join("scan.bin");
         std::fs::write(&path, bytes).unwrap();

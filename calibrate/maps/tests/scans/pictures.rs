@@ -69,7 +69,7 @@ fn a_folder_of_pictures_is_read_in_the_order_of_numbers() {
         "4 pictures from band 8.png (400 nm) to band 11.tiff (700 nm), in the order of their names";
     assert_eq!(cube.remarks(), [remark]);
     let (found, hint) = refused(folder.path(), &CubeOptions::default());
-    assert!(found.contains("the values are no reflectances"), "{found}: {hint}");
+    assert!(found.contains("the values are not reflectances"), "{found}: {hint}");
     // The list may lie elsewhere.
     let elsewhere = tempfile::tempdir().unwrap();
     let list = elsewhere.path().join("filters.csv");

@@ -99,7 +99,7 @@ fn counts_of_a_folder_become_reflectance_by_column_and_band() {
     check_near(&Cube::open(folder.path().join("capture")).unwrap());
     // The header alone needs the readings by settings.
     let (found, _) = refused(&scan, &CubeOptions::default());
-    assert!(found.contains("the values are no reflectances"), "{found}");
+    assert!(found.contains("the values are not reflectances"), "{found}");
     let capture = folder.path().join("capture");
     let options = CubeOptions {
         white_reading: Some(capture.join("WHITEREF_042.hdr")),
@@ -332,7 +332,7 @@ fn files_that_are_no_scan_are_refused() {
     let (message, hint) = refused(&[file("scan.img", data("bil"))]);
     assert_eq!(
         message,
-        "scan.img: is no cube that can be read, and no header of ENVI is beside it"
+        "scan.img: is not a cube that can be read, and no header of ENVI is beside it"
     );
     assert_eq!(hint, both);
     let (message, _) = refused(&[head(), file("b.hdr", "ENVI\n")]);

@@ -173,7 +173,7 @@ fn of_pigment(library: &PigmentLibrary, pigment: &Pigment, findings: &mut Vec<Fi
     if let Some(at) =
         pigment.absorption.iter().zip(&pigment.scattering).position(|(k, s)| *k == 0.0 && *s == 0.0)
     {
-        let what = format!("K and S are both 0 at {} nm, which is no paint", grid.nm(at));
+        let what = format!("K and S are both 0 at {} nm, which is not paint", grid.nm(at));
         found(Severity::Fault, what);
     }
     let surface = library.saunderson;

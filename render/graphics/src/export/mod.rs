@@ -47,7 +47,7 @@ pub enum ExportError {
         height: usize,
     },
     /// A value is infinite or not a number.
-    #[error("{what} at x {x}, y {y} is no finite number, found `{found}`")]
+    #[error("{what} at x {x}, y {y} is not a finite number, found `{found}`")]
     NotFinite {
         /// Quantity that the value stands for.
         what: String,

@@ -317,7 +317,7 @@ impl LayerAttribute {
                     None => Ok(found),
                 }
             }
-            Some(_) => Err(fault("it is no text".to_owned())),
+            Some(_) => Err(fault("it is not text".to_owned())),
         }
     }
 }

@@ -172,7 +172,7 @@ fn json(file: &str, parts: &[Header]) -> Result<String, PaintingFileError> {
     let base = parts.iter().find(base).ok_or_else(|| format("part `base` is missing"))?;
     match base.own_attributes.other.get(&key) {
         Some(AttributeValue::Text(text)) => Ok(text.chars().collect()),
-        Some(_) => Err(format("attribute `impasto` of part `base` is no text")),
+        Some(_) => Err(format("attribute `impasto` of part `base` is not text")),
         None => Err(format("attribute `impasto` of part `base` is missing")),
     }
 }

@@ -150,7 +150,9 @@ pub enum PaintingError {
         "a layer holds 8 pigments, these two have {}: {}",
         pigments.len(), pigments.join(", ")
     )]
-    #[hint("keep them apart, or exchange a pigment of one layer for one of the other's")]
+    #[hint(
+        "keep them apart, or replace a pigment of one layer by one that the other layer also has"
+    )]
     MergedPigments {
         /// Names of the pigments of both.
         pigments: Vec<String>,

@@ -302,7 +302,9 @@ pub enum SeparationError {
         lattice: usize,
     },
     /// The heights are not a valid range.
-    #[error("heights run from above 0 to 100 mm, rising, found `{least_mm}:{most_mm}`")]
+    #[error(
+        "heights are two numbers above 0 and at most 100 mm, the smaller first, found `{least_mm}:{most_mm}`"
+    )]
     #[hint("0.03:0.3 is usual; the same number twice for an even film")]
     Heights {
         /// Least height in mm.

@@ -299,7 +299,7 @@ fn a_painting_goes_on_with_its_palette_and_brushes_and_is_recorded() {
     };
     let mut today = opened();
     assert!(whole(&mut today) == left, "not as it was left");
-    assert_eq!(today.history(), (Vec::new(), 0), "taking up is no action");
+    assert_eq!(today.history(), (Vec::new(), 0), "taking up is not an action");
     let on_canvas = [("flat", 7.0), ("knife", 12.0)];
     act(&mut today, on_canvas.map(|(brush, y)| stroke(SurfaceId::Canvas, brush, y)));
     let (canvas, _) = today.documents().unwrap();

@@ -179,7 +179,7 @@ documents::settings! {
         direction_deg: f32 = 15.0, Number(-360.0, 360.0), "degrees" => "Direction of the strokes, counterclockwise from the right";
         length_px: f32 = 90.0, Number(1.0, 4096.0), "px", Length => "Length of the streaks";
         outline_px: f32 = 6.0, Number(0.0, 50.0), "px", Length => "How far the brush keeps from outlines; 0 passes over them";
-        darkest: f32 = 0.2, Number(0.0, 1.0) => "Washes up to this value (mean of red, green and blue) are laid wet, lighter ones less and less; 0 is no limit";
+        darkest: f32 = 0.2, Number(0.0, 1.0) => "Washes up to this value (mean of red, green and blue) are laid wet, lighter ones less and less; 0 is not a limit";
         color as "colour": Option<String> = None, Color => "Only where the wash is of about this colour", like "#506a8c";
         tolerance: f32 = 25.0, Number(1.0, 200.0), "CIELAB" => "How far from that colour";
     }

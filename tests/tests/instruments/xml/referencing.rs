@@ -211,7 +211,7 @@ fn a_measured_tile_counts_as_it_is() {
     let tile = Tile::measured(&short).unwrap();
     let error = Referencing { tile, ..against(&white, &darks) }.reflectance(&sample).unwrap_err();
     assert!(matches!(error, ReferencingError::Uncovered { role: "tile", .. }), "{error}");
-    assert!(Tile::measured(&white).is_err(), "counts are no tile");
+    assert!(Tile::measured(&white).is_err(), "counts are not a tile");
     assert!(Tile::even(99.0).is_err() && Tile::even(0.0).is_err(), "no fraction");
 }
 

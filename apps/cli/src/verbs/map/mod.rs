@@ -37,7 +37,7 @@ const STEPS: usize = 1000;
 
 /// Map the pigments of a library in a spectral scan
 ///
-/// Tells for every pixel which pigments are there, their shares with standard deviations, and how
+/// For every pixel you learn which pigments are there, their shares with standard deviations, and how
 /// sure that is: films that hide, mixed by two-constant Kubelka-Munk. About 20,000 pixels are searched
 /// whole (the survey); all others start from the nearest of these. Pigments that the bands of the scan
 /// cannot tell apart are mapped as one. The maps are a Zarr group that xarray opens; a run that was ended is
@@ -49,7 +49,7 @@ pub(crate) struct Map {
     scan: PathBuf,
     /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else the Van Gogh oils that ship]
     library: Option<PathBuf>,
-    /// The maps to write: a folder, such as maps.zarr; without it the survey is told alone
+    /// The maps to write: a folder, such as maps.zarr; without it only the survey is printed
     #[arg(short, long, alias = "out", value_name = "FOLDER")]
     output: Option<PathBuf>,
     /// Continue maps that an earlier run of the same scan, library and settings began

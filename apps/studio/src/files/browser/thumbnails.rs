@@ -172,7 +172,7 @@ mod tests {
             assert_eq!(picture(&mut thumbnails, &path(name)), Some([192, 96]), "{name}");
         }
         assert_eq!(picture(&mut thumbnails, &path("b.exr")), None, "it cannot be read");
-        assert_eq!(picture(&mut thumbnails, &path("c.json")), None, "it is no picture");
+        assert_eq!(picture(&mut thumbnails, &path("c.json")), None, "it is not a picture");
         assert_eq!(thumbnails.known.len(), 4, "the JSON was not read");
     }
 

@@ -412,7 +412,7 @@ fn mixtures_go_to_other_programs_and_come_back() {
         let colors = window.state_mut().files().take_colors();
         colors.is_some_and(|colors| colors.swatches.len() == 1)
     });
-    assert_eq!(names(&mut window), ["red"], "colours are no mixtures");
+    assert_eq!(names(&mut window), ["red"], "colours are not mixtures");
 }
 
 /// The row of a file in the browser. It is a button, while a notice may contain the same name as

@@ -154,7 +154,7 @@ fn number_type(fields: &Fields) -> Result<NumberType, CubeError> {
         14 => NumberType::I64,
         15 => NumberType::U64,
         complex @ (6 | 9) => {
-            let problem = format!("is `{complex}`, complex numbers, which are no reflectances");
+            let problem = format!("is `{complex}`, complex numbers, which are not reflectances");
             return Err(fields.fault("data type", problem, "save real numbers"));
         }
         other => {

@@ -57,7 +57,7 @@ impl EnviWriter {
         let rows = values.chunks_exact(row.max(1));
         if row == 0 || !rows.remainder().is_empty() || self.lines + rows.len() > self.about.lines {
             return Err(self.fault(format!(
-                "{} numbers are no rows of {samples} x {bands} up to line {}",
+                "{} numbers are not rows of {samples} x {bands} up to line {}",
                 values.len(),
                 self.about.lines
             )));

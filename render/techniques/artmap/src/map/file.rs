@@ -242,7 +242,7 @@ fn part(key: &KeyMap, plan: PartPlan, pigments: Option<&[PigmentChannel]>) -> Pa
 fn check(part: &PartPlanes, pigments: Option<&[PigmentChannel]>) -> Result<(), (String, String)> {
     part.check_texels(pigments, |_| true)?;
     for channel in SOURCE {
-        part.check(channel, "is no whole number below 65535", |_, number| {
+        part.check(channel, "is not a whole number below 65535", |_, number| {
             (0.0..f32::from(u16::MAX)).contains(&number) && number.fract() == 0.0
         })?;
     }
@@ -487,9 +487,9 @@ mod tests {
             ("R", f32::NAN, "is impossible at x 3, y 2: `NaN`"),
             ("height", -0.1, "is impossible at x 3, y 2: `-0.1`"),
             ("vehicle", f32::INFINITY, "is impossible at x 3, y 2: `inf`"),
-            ("source.x", 0.5, "is no whole number below 65535 at x 3, y 2: `0.5`"),
-            ("source.y", 65535.0, "is no whole number below 65535 at x 3, y 2: `65535`"),
-            ("source.y", -1.0, "is no whole number below 65535 at x 3, y 2: `-1`"),
+            ("source.x", 0.5, "is not a whole number below 65535 at x 3, y 2: `0.5`"),
+            ("source.y", 65535.0, "is not a whole number below 65535 at x 3, y 2: `65535`"),
+            ("source.y", -1.0, "is not a whole number below 65535 at x 3, y 2: `-1`"),
         ];
         for (channel, value, wanted) in cases {
             let bytes = forged(&map(), |_, parts| {
@@ -647,6 +647,6 @@ mod tests {
         refused(&|map| map.mm_per_texel = Some(f64::INFINITY));
         refused(&|map| map.settings.follow = f32::NAN);
         let place = refused(&|map| map.keys[0].sources[(1, 0)] = [0, u16::MAX]);
-        assert!(place.contains("channel `source.y` is no whole number"), "{place}");
+        assert!(place.contains("channel `source.y` is not a whole number"), "{place}");
     }
 }

@@ -433,7 +433,7 @@ mod gaps_tests {
         assert_eq!(found(0.75), Some(1));
         assert_eq!(found(0.2), None, "unlike both");
         let wide = strips([0, 40, 60], [0.5, 0.62, 0.9], known)[1];
-        assert_eq!(wide, None, "a large area is no stroke");
+        assert_eq!(wide, None, "a large area is not a stroke");
         let beside_free = strips([0, 48, 52], [0.5, 0.62, 0.9], [Some(0), None, None])[1];
         assert_eq!(beside_free, None, "only half of its border");
     }

@@ -144,7 +144,7 @@ impl<'a> Opened<'a> {
         let mut parts = self.reader.headers().iter();
         match parts.find_map(|part| part.own_attributes.other.get(&key)) {
             Some(AttributeValue::Text(text)) => Ok(text.chars().collect()),
-            Some(_) => Err(self.origin.other_format("attribute `impasto` is no text")),
+            Some(_) => Err(self.origin.other_format("attribute `impasto` is not text")),
             None => Err(self.origin.other_format("attribute `impasto` is missing")),
         }
     }

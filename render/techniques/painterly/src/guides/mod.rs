@@ -181,7 +181,7 @@ pub enum GuideFault {
         found: usize,
     },
     /// A number is infinite or none.
-    #[error("point {point}: `{value}` is no place in a picture")]
+    #[error("point {point}: `{value}` is not a place in a picture")]
     NotFinite {
         /// Number of the point.
         point: usize,
@@ -427,8 +427,8 @@ mod tests {
         let cases = [
             (swap("[90, 60]", "[800, 60]"), "g.toml, line 7, guide 1: point 3: [800, 60] lies off"),
             (swap("[0, 0]", "[0, -1]"), "g.toml, line 10, guide 2: point 1: [0, -1] lies off"),
-            (swap("40.5", "nan"), "g.toml, line 6, guide 1: point 2: `NaN` is no place"),
-            (swap("799.9", "inf"), "g.toml, line 10, guide 2: point 2: `inf` is no place"),
+            (swap("40.5", "nan"), "g.toml, line 6, guide 1: point 2: `NaN` is not a place"),
+            (swap("799.9", "inf"), "g.toml, line 10, guide 2: point 2: `inf` is not a place"),
             (swap(", [799.9, 599]", ""), "g.toml, line 10, guide 2: a line needs at least two"),
             (swap("[799.9, 599]", "[0, 0]"), "g.toml, line 10, guide 2: all points are at"),
             (

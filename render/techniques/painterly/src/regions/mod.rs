@@ -209,7 +209,7 @@ impl Regions {
                 RegionArea::Polygon(points)
                     if points.iter().flatten().any(|at| !at.is_finite()) =>
                 {
-                    let fault = "polygon has a point that is no number".to_owned();
+                    let fault = "polygon has a point that is not a number".to_owned();
                     return error(fault, "points are px from the upper left corner");
                 }
                 &RegionArea::Label(color) => {
@@ -246,7 +246,7 @@ impl Entry {
         };
         let label = match self.label.as_deref().map(|text| (text, Rgb::from_hex(text))) {
             Some((text, None)) => {
-                return Err(error(&format!("label `{text}` is no colour"), "write \"#3050a0\""));
+                return Err(error(&format!("label `{text}` is not a colour"), "write \"#3050a0\""));
             }
             found => found.and_then(|(_, color)| color),
         };
@@ -338,7 +338,7 @@ mod tests {
             (region(&format!("{polygon}material = \"b\"")), "r.toml, region `a`: it needs"),
             (region("polygon = [[0, 0], [9, 0]]"), "r.toml, region `a`: polygon has 2 points"),
             (region("polygon = [[0, 0], [9, 0], [nan, 1]]"), "r.toml, region `a`: polygon has a"),
-            (region("label = \"blue\""), "r.toml, region `a`: label `blue` is no colour"),
+            (region("label = \"blue\""), "r.toml, region `a`: label `blue` is not a colour"),
             (region("label = \"#102030\""), "r.toml, region `a`: label #102030 needs a picture"),
             (region(&format!("{polygon}size = 20")), "r.toml, region `a`: size takes 0.1 to 10"),
             (region(&format!("{polygon}twinkle = nan")), "r.toml, region `a`: twinkle takes 0"),

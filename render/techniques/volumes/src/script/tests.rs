@@ -641,7 +641,7 @@ fn files_that_are_missing_or_no_text_are_named() {
     std::fs::write(&bytes, b"a = 1\nb = \"\xff\"").unwrap();
     let error = Script::open(&bytes).unwrap_err().to_string();
     assert!(
-        error.ends_with("bytes.toml, line 2: this is no UTF-8 text, found byte `0xff`"),
+        error.ends_with("bytes.toml, line 2: this is not UTF-8 text, found byte `0xff`"),
         "{error}"
     );
 }

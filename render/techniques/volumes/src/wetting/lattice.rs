@@ -127,7 +127,7 @@ pub enum WettingError {
         fits: usize,
     },
     /// The rate or the slope of spilling is out of its range.
-    #[error("paint cannot spill at {what} `{found}`")]
+    #[error("the {what} of spilling cannot be `{found}`")]
     #[hint(if *what == "rate", verbatim, "grid.rate is 0 to 0.067")]
     #[hint(verbatim, "grid.slope is 0 to 1000")]
     Spilling {

@@ -141,7 +141,9 @@ pub enum WorldError {
     },
     /// There is no such volume, or it cannot be split.
     #[error("volume {index} of {count} {why}")]
-    #[hint("name a wet volume; to be split, one for itself that holds surface")]
+    #[hint(
+        "name a wet volume; only a volume that overlaps no other and holds surface can be split"
+    )]
     Volume {
         /// Index of the volume.
         index: usize,

@@ -177,7 +177,7 @@ pub enum MarkFault {
     #[error("a line needs at least one point")]
     NoPoints,
     /// A number is infinite or none.
-    #[error("`{value}` is no place in a picture")]
+    #[error("`{value}` is not a place in a picture")]
     NotFinite {
         /// The number.
         value: f64,

@@ -395,7 +395,7 @@ mod tests {
             (TEXT.replace("grass", "sky"), "m.toml, sample `sky`, name: another sample"),
             (TEXT.replace("[93, 44]", "[90, 40]"), "m.toml, sample `sky`, spacing: both points"),
             (TEXT.replace("120, 90", "120, 0"), "m.toml, sample `grass`, rectangle: [x, y"),
-            (TEXT.replace("180.5", "inf"), "m.toml, sample `sky`, scribble: `inf` is no place"),
+            (TEXT.replace("180.5", "inf"), "m.toml, sample `sky`, scribble: `inf` is not a place"),
             (TEXT.replace("\"grass\"", "\" \""), "m.toml, sample ` `, name: a sample needs"),
             (sample(""), "m.toml, sample `a`, scribble: a sample has one of"),
             (sample("scribble = []"), "m.toml, sample `a`, scribble: a line needs"),
