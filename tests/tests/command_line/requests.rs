@@ -4,6 +4,8 @@ use calibrate::matching::{CorrectRequest, MatchRequest};
 use calibrate::plan::PlanRequest;
 use calibrate::quadrature::QuadratureRequest;
 use calibrate::{FitRequest, ValidationRequest};
+use maps::MapRequest;
+use maps::cube::CubeOptions;
 use pictures::PictureRequest;
 use reports::ReportRequest;
 use schemars::SchemaGenerator;
@@ -24,6 +26,8 @@ fn schema() -> Value {
     generator.subschema_for::<QuadratureRequest>();
     generator.subschema_for::<ReportRequest>();
     generator.subschema_for::<PictureRequest>();
+    generator.subschema_for::<MapRequest>();
+    generator.subschema_for::<CubeOptions>();
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Requests of impasto",
@@ -68,6 +72,34 @@ fn a_value_that_an_option_does_not_take_is_refused_with_a_way_out() {
     ] {
         let run = impasto(&["fit", &oils, option, value]);
         let wanted = format!("error: {option} {message}\nhint: try {option} {hint}\n");
+        assert_eq!((run.status, run.err.as_str()), (2, wanted.as_str()), "{option} {value}");
+    }
+}
+
+#[test]
+fn a_value_of_a_map_that_an_option_does_not_take_is_refused_before_the_scan_is_opened() {
+    for (option, value, message, way_out) in [
+        (
+            "--group",
+            "whites",
+            "takes NAME=PIGMENT,PIGMENT.., found `whites`",
+            "try --group \"whites=Lead White,Zinc White\"",
+        ),
+        (
+            "--region",
+            "120,40",
+            "takes rows and columns, found `120,40`",
+            "try --region 0..512,100..300",
+        ),
+        (
+            "--spot",
+            "middle",
+            "takes a row and a column, or rows and columns, found `middle`",
+            "try --spot 120,40 or --spot 120..124,40..44",
+        ),
+    ] {
+        let run = impasto(&["map", "no-such-scan.hdr", option, value]);
+        let wanted = format!("error: {option} {message}\nhint: {way_out}\n");
         assert_eq!((run.status, run.err.as_str()), (2, wanted.as_str()), "{option} {value}");
     }
 }
