@@ -45,6 +45,9 @@ fn section(page: &mut String, name: &str, schema: &Value) {
             let meaning = cell(word["description"].as_str().unwrap_or_default());
             *page += &format!("| {} | {meaning} |\n", written(word));
         }
+    } else {
+        let about = flowing(about);
+        *page += &format!("\n## {name}\n\n{about} It is {}.\n", takes(schema));
     }
 }
 
@@ -114,6 +117,11 @@ fn takes(schema: &Value) -> String {
             Some(count) => format!("a list of {count}: {}", takes(&schema["items"])),
             None => format!("a list: {}", takes(&schema["items"])),
         },
+        "object" => {
+            let keys = schema["properties"].as_object().unwrap().keys();
+            let keys: Vec<String> = keys.map(|key| format!("`{key}`")).collect();
+            format!("an object with {}", keys.join(" and "))
+        }
         other => panic!("no words for the type {other}"),
     }
 }

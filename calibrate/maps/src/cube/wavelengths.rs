@@ -56,7 +56,7 @@ impl Wavelengths {
             (Some(_), Some((_, better))) => {
                 let unit = unit.unwrap_or_default().trim();
                 return Err(format!(
-                    "runs from `{least}` to `{most}`, which are no {unit}: these look like {better}"
+                    "runs from `{least}` to `{most}`, which are not {unit}: these look like {better}"
                 ));
             }
             (None, Some((factor, name))) => {
