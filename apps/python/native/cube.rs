@@ -2,47 +2,12 @@
 
 use std::path::PathBuf;
 
-use maps::cube::{CubeOptions, CubeScale, DarkReading};
+use documents::request::request_from_json;
+use maps::cube::CubeOptions;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
 
 use crate::failure::{Exception, Raised};
-
-/// Options for opening a scan, as the public Python functions pass them.
-#[derive(FromPyObject)]
-#[pyo3(from_item_all)]
-pub(crate) struct Options {
-    white_reading: Option<PathBuf>,
-    dark_reading: Option<PathBuf>,
-    tile: f64,
-    percent: Option<bool>,
-    full_scale: Option<f64>,
-    wavelengths: Option<PathBuf>,
-    variable: Option<String>,
-}
-
-impl Options {
-    fn options(self) -> CubeOptions {
-        CubeOptions {
-            white_reading: self.white_reading,
-            dark_reading: match self.dark_reading {
-                None => DarkReading::Missing,
-                Some(path) if path.as_os_str() == "0" => DarkReading::Subtracted,
-                Some(path) => DarkReading::File(path),
-            },
-            tile: self.tile,
-            scale: match self.percent {
-                None => CubeScale::ByFile,
-                Some(true) => CubeScale::Percent,
-                Some(false) => CubeScale::Fraction,
-            },
-            full_scale: self.full_scale,
-            wavelengths: self.wavelengths,
-            variable: self.variable,
-            scratch: None,
-        }
-    }
-}
 
 /// A spectral scan.
 #[pyclass(frozen, module = "impasto._native")]
@@ -57,20 +22,14 @@ impl Cube {
     pub(crate) fn again(&self) -> Result<maps::Cube, maps::cube::CubeError> {
         maps::Cube::open_with(&self.path, &self.options)
     }
-
-    /// Noise of a band, from the white reading.
-    pub(crate) fn white_sd(&self) -> Option<f64> {
-        let sd = self.cube.white_sd().filter(|sd| !sd.is_empty())?;
-        Some((sd.iter().map(|sd| sd * sd).sum::<f64>() / sd.len() as f64).sqrt())
-    }
 }
 
 #[pymethods]
 impl Cube {
-    /// Opens a scan.
+    /// Opens a scan with options (JSON).
     #[staticmethod]
-    fn open(py: Python<'_>, path: PathBuf, options: Options) -> PyResult<Self> {
-        let options = options.options();
+    fn open(py: Python<'_>, path: PathBuf, options: &str) -> PyResult<Self> {
+        let options: CubeOptions = request_from_json(options).raised(py, Exception::Reading)?;
         let opened = py.detach(|| maps::Cube::open_with(&path, &options));
         let cube = opened.raised(py, Exception::Reading)?;
         Ok(Self { cube, path, options })

@@ -3,12 +3,14 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use calibrate::PigmentLibrary;
 use documents::Progress;
+use documents::request::request_from_json;
 use maps::blocks::RunError;
 use maps::store::Shard;
 use maps::{
-    Book, Ground, MapError, MapSettings, ModelError, PigmentGroup, Region, StoreMode, SurveyError,
-    SurveyedScan,
+    Book, Ground, GroundSource, MapError, MapRequest, MapRequestError, MapSettings, ModelError,
+    StoreMode, SurveyError, SurveyedScan,
 };
 use pyo3::prelude::*;
 
@@ -18,58 +20,27 @@ use crate::library::Library;
 use crate::residuals::Residuals;
 use crate::running::{run, run_with};
 
-/// Settings of a map, as the public Python functions pass them.
-#[derive(FromPyObject)]
-#[pyo3(from_item_all)]
-pub(crate) struct Settings {
-    at_most: usize,
-    palette: Vec<String>,
-    groups: Vec<(String, Vec<String>)>,
-    group_alike: bool,
-    noise: Option<f64>,
-    model_error: Option<f64>,
-    residuals: Option<Py<Residuals>>,
-    penalty: f64,
-    ground: Option<(Vec<f64>, Vec<f64>)>,
-    ground_region: Option<((usize, usize), (usize, usize))>,
-    region: Option<((usize, usize), (usize, usize))>,
-}
+/// Wavelengths of a ground in nm, and its reflectance at each.
+type GroundCurve = (Vec<f64>, Vec<f64>);
 
-impl Settings {
-    fn settings(
-        self,
-        cube: &maps::Cube,
-        white_sd: Option<f64>,
-    ) -> Result<(MapSettings, Option<Region>), SurveyError> {
-        let of_ends = |(rows, columns): ((usize, usize), (usize, usize))| Region {
-            rows: rows.0..rows.1,
-            columns: columns.0..columns.1,
-        };
-        let ground = match (self.ground, self.ground_region) {
-            (Some((nm, reflectance)), _) => Some(Ground::new(nm, reflectance)?),
-            (None, Some(ends)) => Some(of_ends(ends).ground(cube)?),
-            (None, None) => None,
-        };
-        let usual = MapSettings::default();
-        let residuals = self.residuals.map(|residuals| {
-            ModelError::Residuals(calibrate::Residuals::clone(&residuals.get().0))
-        });
-        let settings = MapSettings {
-            at_most: self.at_most,
-            palette: self.palette,
-            groups: self
-                .groups
-                .into_iter()
-                .map(|(name, pigments)| PigmentGroup { name, pigments })
-                .collect(),
-            group_alike: self.group_alike,
-            sensor_noise: self.noise.or(white_sd).unwrap_or(usual.sensor_noise),
-            model_error: residuals.or(self.model_error.map(ModelError::Stated)),
-            penalty: self.penalty,
-            ground,
-        };
-        Ok((settings, self.region.map(of_ends)))
+/// Settings of a map. Residuals are an object of Python, and a spectrum of the ground may hold numbers that
+/// JSON has not.
+fn settings(
+    mut request: MapRequest,
+    residuals: Option<&Residuals>,
+    ground: Option<GroundCurve>,
+    (cube, library): (&maps::Cube, &PigmentLibrary),
+) -> Result<MapSettings, MapRequestError> {
+    // In Python the noise of the white reading has no lower limit.
+    request.noise = request.noise.or_else(|| cube.noise_of_white());
+    if let Some((nm, reflectance)) = ground {
+        let ground = Ground::new(nm, reflectance).map_err(SurveyError::from)?;
+        request.ground = Some(GroundSource::Measured(ground));
     }
+    let settings = request.settings(cube, library)?;
+    let residuals =
+        residuals.map(|residuals| ModelError::Residuals(calibrate::Residuals::clone(&residuals.0)));
+    Ok(MapSettings { model_error: residuals.or(settings.model_error), ..settings })
 }
 
 /// A scan that was surveyed with a library.
@@ -78,20 +49,25 @@ pub(crate) struct Survey(Arc<SurveyedScan>);
 
 #[pymethods]
 impl Survey {
-    /// Surveys a scan, or takes the `book` of an earlier survey (JSON).
+    /// Surveys a scan by a request (JSON), or takes the `book` of an earlier survey (JSON).
     #[new]
-    #[pyo3(signature = (cube, library, settings, book, progress))]
+    #[pyo3(signature = (cube, library, request, residuals, ground, book, progress))]
+    #[expect(clippy::too_many_arguments, reason = "the public face has them by name")]
     fn new(
         py: Python<'_>,
         cube: &Cube,
         library: &Library,
-        settings: Settings,
+        request: &str,
+        residuals: Option<&Residuals>,
+        ground: Option<GroundCurve>,
         book: Option<String>,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let white_sd = cube.white_sd();
+        let request: MapRequest = request_from_json(request).raised(py, Exception::Fit)?;
         let cube = py.detach(|| cube.again()).raised(py, Exception::Reading)?;
-        let (settings, region) = settings.settings(&cube, white_sd).raised(py, Exception::Fit)?;
+        let region = request.region.clone();
+        let settings = settings(request, residuals, ground, (&cube, &library.0));
+        let settings = settings.raised(py, Exception::Fit)?;
         let book = book.map(|text| Book::from_json(&text)).transpose();
         let book = book.raised(py, Exception::Reading)?;
         let library = library.0.clone();

@@ -190,7 +190,7 @@ def report(
 @final
 class Cube:
     @staticmethod
-    def open(path: _Path, options: dict[str, Any]) -> Cube: ...
+    def open(path: _Path, options: str) -> Cube: ...
     @property
     def shape(self) -> tuple[int, int, int]: ...
     @property
@@ -207,7 +207,9 @@ class Survey:
         cls,
         cube: Cube,
         library: Library,
-        settings: dict[str, Any],
+        request: str,
+        residuals: Residuals | None,
+        ground: tuple[list[float], list[float]] | None,
         book: str | None,
         progress: _Progress,
     ) -> Survey: ...

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from typing import TYPE_CHECKING, Any
 
@@ -58,19 +59,24 @@ class Cube:
         `tile` is the white's own reflectance. `percent` states the unit. `wavelengths` is a file of them
         for scans that name none, `variable` the array of a Zarr group that holds several.
         """
+        scales = {None: None, True: "percent", False: "fraction"}
         options = {
             "white_reading": None if white_reading is None else os.fspath(white_reading),
             "dark_reading": None if dark_reading is None else os.fspath(dark_reading),
             "tile": float(tile),
-            "percent": percent,
-            "full_scale": full_scale,
+            "scale": scales[percent],
+            "full_scale": None if full_scale is None else float(full_scale),
             "wavelengths": None if wavelengths is None else os.fspath(wavelengths),
             "variable": variable,
         }
         if not 0 < tile <= 1.2:
             raise Error(f"tile is a reflectance above 0 and up to 1.2, found {tile}")
-        name = os.fspath(path)
-        return cls(_native.Cube.open(name, options), name, options)
+        return cls._opened(os.fspath(path), options)
+
+    @classmethod
+    def _opened(cls, path: str, options: dict[str, Any]) -> Cube:
+        """Opens a scan with the keys of `CubeOptions` in docs/schema/requests.json."""
+        return cls(_native.Cube.open(path, json.dumps(options)), path, options)
 
     @property
     def shape(self) -> tuple[int, int, int]:
@@ -130,13 +136,9 @@ class Cube:
         )
 
     def __reduce__(self) -> tuple[Any, tuple[str, dict[str, Any]]]:
-        return _reopened, (self.path, self._options)
+        return Cube._opened, (self.path, self._options)
 
     def __repr__(self) -> str:
         lines, samples, bands = self.shape
         nm = self.wavelengths
         return f"<impasto.Cube: {lines} x {samples} pixels, {bands} bands, {nm[0]:g} to {nm[-1]:g} nm>"
-
-
-def _reopened(path: str, options: dict[str, Any]) -> Cube:
-    return Cube(_native.Cube.open(path, options), path, options)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import operator
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -26,8 +27,20 @@ class Survey:
     """About 20,000 pixels of a scan, searched whole: the palette found, and all that maps depend on."""
 
     def __init__(
-        self, native: _native.Survey, cube: Cube, library: Library, settings: dict[str, Any]
+        self, cube: Cube, library: Library, settings: dict[str, Any], book: str | None, progress: Any
     ) -> None:
+        """`settings` holds the request with the keys of `MapRequest` in docs/schema/requests.json, the JSON of
+        residuals, and wavelengths and reflectances of the ground."""
+        residuals = settings["residuals"]
+        native = _native.Survey(
+            cube._native,
+            library._native,
+            json.dumps(settings["request"]),
+            None if residuals is None else _native.Residuals.from_json(residuals),
+            settings["ground"],
+            book,
+            progress,
+        )
         self._native = native
         self.cube = cube
         """The scan."""
@@ -119,36 +132,37 @@ def survey(
         raise Error(f"palette is a list of names, found `{palette}`", f"try [{palette!r}]")
     if isinstance(ground, Spectrum) and len(ground) != 1:
         raise Error(f"the ground is one spectrum, found {len(ground)}", "choose one: spectra[0]")
-    settings: dict[str, Any] = {
-        "at_most": at_most,
+    request = {
+        "at_most": operator.index(at_most),
         "palette": list(palette),
-        "groups": [(name, list(names)) for name, names in (groups or {}).items()],
-        "group_alike": group_alike,
-        "noise": noise,
-        "model_error": model_error,
-        "residuals": None if residuals is None else residuals._native,
-        "penalty": penalty,
+        "groups": [{"name": n, "pigments": list(names)} for n, names in (groups or {}).items()],
+        "apart": not group_alike,
+        "noise": None if noise is None else float(noise),
+        "model_error": None if model_error is None else float(model_error),
+        "penalty": float(penalty),
         "ground": None,
-        "ground_region": None,
-        "region": None if region is None else _ends(region, cube),
+        "region": None if region is None else _text(region, cube),
+    }
+    settings: dict[str, Any] = {
+        "request": request,
+        "residuals": None if residuals is None else residuals.to_json(),
+        "ground": None,
     }
     if isinstance(ground, Spectrum):
         settings["ground"] = (ground.wavelengths.tolist(), ground.rows[0].tolist())
     elif ground is not None:
-        settings["ground_region"] = _ends(ground, cube)
-    native = _native.Survey(cube._native, library._native, settings, book, progress)
-    settings["residuals"] = None if residuals is None else residuals.to_json()
-    return Survey(native, cube, library, settings)
+        request["ground"] = _text(ground, cube)
+    return Survey(cube, library, settings, book, progress)
 
 
 # A parameter of `pigment_map` has the name of the function.
 _surveyed = survey
 
 
-def _ends(region: tuple[slice, slice], cube: Cube) -> tuple[tuple[int, int], tuple[int, int]]:
-    """First row and column of a region of a scan, and those after its last."""
+def _text(region: tuple[slice, slice], cube: Cube) -> str:
+    """Rows and columns of a region of a scan as text: the first, and the one after the last."""
     rows, columns = (part.indices(n)[:2] for part, n in zip(region, cube.shape))
-    return rows, columns
+    return f"{rows[0]}..{rows[1]},{columns[0]}..{columns[1]}"
 
 
 def pigment_map(

@@ -17,9 +17,7 @@ from distributed import Client, KilledWorker, as_completed
 from impasto.cube import Cube
 from impasto.errors import Error
 from impasto.library import Library
-from impasto.maps import Survey, survey
-from impasto.residuals import Residuals
-from impasto.spectrum import Spectrum
+from impasto.maps import Survey
 
 TASKS_A_WORKER = 4
 """Tasks that wait for each core, so that none is idle and a large scan needs little of the scheduler."""
@@ -153,20 +151,6 @@ def prepared(file: str, sha256: str) -> tuple[Survey, str]:
         raise Error(f"{file}: is not the job of this run", "start the run again with resume=True")
     head, book = job.decode().split("\n", 1)
     told = json.loads(head)
-    cube = Cube.open(told["cube"], **told["options"])
-    settings = dict(told["settings"])
-    region = settings.pop("region")
-    if region is not None:
-        rows, columns = region
-        region = slice(*rows), slice(*columns)
-    settings["groups"] = dict(settings["groups"])
-    ground, ends = settings.pop("ground"), settings.pop("ground_region")
-    if ground is not None:
-        settings["ground"] = Spectrum(*ground)
-    elif ends is not None:
-        settings["ground"] = slice(*ends[0]), slice(*ends[1])
-    residuals = settings.pop("residuals")
-    if residuals is not None:
-        settings["residuals"] = Residuals.from_json(residuals)
+    cube = Cube._opened(told["cube"], told["options"])
     library = Library.from_json(told["library"])
-    return survey(cube, library, region=region, book=book, **settings), told["out"]
+    return Survey(cube, library, told["settings"], book, None), told["out"]

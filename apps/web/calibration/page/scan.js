@@ -56,16 +56,15 @@ const header = (chosen) => (chosen.find((file) => /\.hdr$/i.test(file.name)) ?? 
 // The options of reading, and all files with those of white and dark.
 function reading() {
   const [white, dark] = ["s-white-files", "s-dark-files"].map((id) => [...$(id).files]);
+  const subtracted = $("s-subtracted").checked;
   const options = {
-    values: $("s-values").value,
-    white: number($("s-white"), "A white reads"),
+    scale: number($("s-white"), "A white reads") ?? $("s-values").value,
     full_scale: number($("s-full"), "Largest count of the detector"),
     white_reading: header(white),
-    dark_reading: header(dark),
-    dark_subtracted: $("s-subtracted").checked,
+    dark_reading: header(dark) ?? (subtracted ? "0" : null),
     tile: number($("s-tile"), "Reflectance of the white"),
   };
-  if (options.dark_subtracted && dark.length) {
+  if (subtracted && dark.length) {
     throw { message: "the dark is subtracted already, or there is a dark reading: found both", hint: "take one of the two away" };
   }
   return [[...files, ...white, ...dark], options];
@@ -92,20 +91,18 @@ function region() {
   const text = $("s-region").value.trim();
   if (!text) return null;
   const sides = /^(\d+)\s*\.\.\s*(\d+)\s*,\s*(\d+)\s*\.\.\s*(\d+)$/.exec(text);
-  if (sides) return sides.slice(1).map(Number);
+  if (sides) return text;
   throw { message: `Rows and columns takes both, found \`${text}\``, hint: "write them from 0 and without the last, such as 0..512,100..300" };
 }
 
 async function map() {
   const done = await work("mapping the scan", async (stage) => {
-    const options = {
-      at_most: Number($("s-most").value), only: names($("s-only").value), apart: $("s-apart").checked,
-      region: region(), every: wholeNumber($("s-every"), "Map every n-th pixel", 1) ?? 1,
-    };
+    const request = { at_most: Number($("s-most").value), palette: names($("s-only").value), apart: $("s-apart").checked, region: region() };
+    const every = wholeNumber($("s-every"), "Map every n-th pixel", 1) ?? 1;
     if (!shelf.about) await useShipped();
     $("scan-result").hidden = true;
     const bytes = new TextEncoder().encode(shelf.json);
-    return scans.call("map", [shelf.name, bytes, JSON.stringify(options)], stage);
+    return scans.call("map", [shelf.name, bytes, JSON.stringify(request), every], stage);
   });
   if (!done) return;
   mapped = done.about;

@@ -4,7 +4,6 @@
 
 mod failure;
 mod slices;
-mod options;
 mod mapped;
 mod scan;
 

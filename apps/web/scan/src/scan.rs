@@ -2,7 +2,7 @@
 
 use maps::cube::{Block, CubeOptions, ScanFile};
 use maps::pictures::OverviewSums;
-use maps::{Cube, Region, SURVEYED, Spot, SurveyedScan};
+use maps::{Cube, MapRequest, Region, SURVEYED, Spot, SurveyedScan};
 use pigment::PigmentLibrary;
 use serde_json::json;
 use told::stage;
@@ -10,7 +10,6 @@ use wasm_bindgen::prelude::*;
 
 use crate::failure::{Result, Told, request};
 use crate::mapped::Mapped;
-use crate::options::{MapOptions, ReadingOptions};
 use crate::slices::scan_files;
 
 /// Bytes of the values that are read at once.
@@ -38,9 +37,8 @@ impl Scan {
     /// Opens the scan of the worker's files with these names and sizes.
     #[wasm_bindgen(constructor)]
     pub fn open(names: Vec<String>, sizes: &[f64], reading: &str) -> Result<Scan> {
-        let reading: ReadingOptions = request(reading)?;
+        let options: CubeOptions = request(reading)?;
         let files = scan_files(names, sizes);
-        let options = reading.cube_options();
         let cube = Cube::of_files(&files, &options).told()?;
         let told = json!({
             "name": cube.path().display().to_string(),
@@ -57,25 +55,31 @@ impl Scan {
         self.told.clone()
     }
 
-    /// Surveys and maps the scan with the library in the file `name`. Reports progress to the page.
-    pub fn map(&mut self, name: &str, library: &[u8], options_json: &str) -> Result<Mapped> {
-        let chosen: MapOptions = request(options_json)?;
+    /// Surveys the scan with the library in the file `name`, and maps one pixel at each distance `every`,
+    /// in rows and in columns. Reports progress to the page.
+    pub fn map(
+        &mut self,
+        name: &str,
+        library: &[u8],
+        request_json: &str,
+        every: usize,
+    ) -> Result<Mapped> {
+        let chosen: MapRequest = request(request_json)?;
         let library = PigmentLibrary::from_json(name, &String::from_utf8_lossy(library)).told()?;
         // Frees the memory of an earlier run first.
         self.surveyed = None;
         let cube = Cube::of_files(&self.files, &self.options).told()?;
-        let settings = chosen.settings(&cube);
-        let region = chosen.region();
         let pixels = |rows: usize, columns: usize| rows.saturating_mul(columns).min(SURVEYED);
-        let about = match &region {
+        let about = match &chosen.region {
             Some(region) => pixels(region.rows.len(), region.columns.len()),
             None => pixels(cube.lines(), cube.samples()),
         };
         let task = told::task_in_percent("surveying", about);
-        let scan = SurveyedScan::survey(cube, &library, &settings, region, &task).told()?;
-        let sums = map_all(&scan, chosen.every())?;
+        let scan = chosen.survey(cube, &library, None, &task).told()?;
+        let every = every.max(1);
+        let sums = map_all(&scan, every)?;
         stage("drawing");
-        let mapped = Mapped::of(&scan, &sums.finish(), &library, chosen.every())?;
+        let mapped = Mapped::of(&scan, &sums.finish(), &library, every)?;
         (self.library, self.surveyed) = (Some(library), Some(scan));
         Ok(mapped)
     }

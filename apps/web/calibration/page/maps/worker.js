@@ -31,8 +31,8 @@ const calls = {
     scan = new native.Scan(files.map((file) => file.name), files.map((file) => file.size), reading);
     return JSON.parse(scan.about());
   },
-  map(name, library, options) {
-    const mapped = scan.map(name, library, options);
+  map(name, library, request, every) {
+    const mapped = scan.map(name, library, request, every);
     const about = JSON.parse(mapped.about());
     const places = Array.from({ length: mapped.pictures() }, (_, place) => place);
     const pictures = places.map((place) => ({ name: mapped.picture_name(place), bytes: mapped.picture(place) }));
