@@ -66,7 +66,7 @@ def test_colours_of_a_dataframe() -> None:
     frame = pd.DataFrame(np.full((2, 31), 0.2), columns=NM, index=["a", "b"])
     assert np.allclose(im.color.xyz(frame)[:, 1], 20.0)
     assert np.allclose(im.color.xyz(frame.loc["a"])[1], 20.0)
-    with pytest.raises(im.Error, match="no wavelength"):
+    with pytest.raises(im.Error, match="not a wavelength"):
         im.color.xyz(frame.assign(note=1.0))
 
 
