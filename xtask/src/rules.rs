@@ -85,7 +85,7 @@ pub const RULES: [Rule; 16] = [
     },
     Rule {
         name: "types with `impl`s of their own in more than three files",
-        limit: Limit::AtMost(10.0),
+        limit: Limit::AtMost(9.0),
         mark: Some(Mark::SpreadTypes),
         figure: |figures| count(figures, Mark::SpreadTypes),
     },
@@ -121,7 +121,7 @@ pub const RULES: [Rule; 16] = [
     },
     Rule {
         name: "semicolons, per 1,000 words",
-        limit: Limit::AtMost(2.4),
+        limit: Limit::AtMost(0.9),
         mark: Some(Mark::Semicolons),
         figure: |figures| figures.per_words(Mark::Semicolons),
     },

@@ -1,4 +1,4 @@
-//! What all verbs of painting share: the options for presets and settings of a technique, and
+//! All verbs of painting share this: the options for presets and settings of a technique, and
 //! painting behind a progress bar.
 
 use std::path::PathBuf;

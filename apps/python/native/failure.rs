@@ -1,7 +1,8 @@
-//! Errors of the libraries as exceptions of the package.
+//! Errors of the libraries as exceptions of the package, and their remarks as tuples.
 
 use std::error::Error;
 
+use calibrate::{Remark, RemarkKind};
 use documents::hint::{Explain, Fault, Hint};
 use pyo3::prelude::*;
 
@@ -97,4 +98,17 @@ impl<T, E: Explain> Raised<T> for Result<T, E> {
     fn raised(self, py: Python<'_>, exception: Exception) -> PyResult<T> {
         self.map_err(|error| exception.of(py, &error))
     }
+}
+
+/// Whether a remark is a warning, its sentence, and its hint.
+pub(crate) type RemarkTuple = (bool, String, Option<String>);
+
+pub(crate) fn remarks<'a>(remarks: impl IntoIterator<Item = &'a Remark>) -> Vec<RemarkTuple> {
+    remarks
+        .into_iter()
+        .map(|remark: &Remark| {
+            let hint = remark.hint.as_ref().map(hint_text);
+            (remark.kind == RemarkKind::Warning, remark.text.clone(), hint)
+        })
+        .collect()
 }

@@ -6,8 +6,7 @@ use calibrate::{FitRequest, FitValidation, PreparedFit, ValidationRequest};
 use documents::request::request_from_json;
 use pyo3::prelude::*;
 
-use crate::failure::{Exception, Raised};
-use crate::json::{RemarkTuple, remarks};
+use crate::failure::{Exception, Raised, RemarkTuple, remarks};
 use crate::library::Library;
 use crate::light::{Light, viewing};
 use crate::readings::Readings;

@@ -6,7 +6,6 @@ use pyo3::prelude::*;
 mod failure;
 mod running;
 mod arrays;
-mod json;
 mod light;
 mod color;
 mod library;

@@ -13,8 +13,7 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use crate::arrays::{GridNumbers, reflectance, rows};
-use crate::failure::{Exception, Raised};
-use crate::json::{RemarkTuple, remarks};
+use crate::failure::{Exception, Raised, RemarkTuple, remarks};
 use crate::light::{Light, viewing};
 use crate::running::beside;
 

@@ -12,8 +12,7 @@ use pyo3::prelude::*;
 use spectra::Observer;
 
 use crate::arrays::{GridNumbers, reflectance};
-use crate::failure::{Exception, Raised};
-use crate::json::{RemarkTuple, remarks};
+use crate::failure::{Exception, Raised, RemarkTuple, remarks};
 use crate::library::{Ground, Library};
 use crate::light::Light;
 use crate::running::run;

@@ -6,8 +6,7 @@ use documents::request::request_from_json;
 use pyo3::prelude::*;
 
 use crate::arrays::{GridNumbers, grid};
-use crate::failure::{Exception, Raised};
-use crate::json::{RemarkTuple, remarks};
+use crate::failure::{Exception, Raised, RemarkTuple, remarks};
 use crate::library::Library;
 use crate::running::run;
 

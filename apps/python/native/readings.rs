@@ -11,8 +11,7 @@ use pyo3::prelude::*;
 use spectra::referencing::{DarkFiles, ReferenceFiles, TileSource};
 
 use crate::arrays::GridNumbers;
-use crate::failure::{Exception, Raised};
-use crate::json::{RemarkTuple, remarks};
+use crate::failure::{Exception, Raised, RemarkTuple, remarks};
 
 /// Readings of one or more files on one grid.
 #[pyclass(frozen, module = "impasto._native")]

@@ -4,8 +4,6 @@
 //! Other solvers take on 2 cores: quadprog 3.5 ms, Clarabel (one program after another) 19 ms,
 //! cvxpy 196 ms.
 
-use calibrate::PigmentId;
-use calibrate::calibration::calibrate;
 use calibrate::evaluate::Viewing;
 use calibrate::fit::{
     FitSettings, Method, Problem, Refinement, Smoothness, fit_qp, fit_refined, fit_weighted,
@@ -17,6 +15,7 @@ use calibrate::quadrature::Quadrature;
 use calibrate::swatch::SwatchSet;
 use calibrate::synthetic::SyntheticMixtures;
 use calibrate::validation::{ValidationPlan, leave_out};
+use calibrate::{PigmentId, calibration::calibrate};
 use divan::{Bencher, black_box};
 use documents::Task;
 use spectra::Grid;

@@ -2,8 +2,7 @@
 //! backing.
 
 use documents::Task;
-use rand::SeedableRng;
-use rand::seq::SliceRandom;
+use rand::{SeedableRng, seq::SliceRandom};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use spectra::TristimulusWeights;

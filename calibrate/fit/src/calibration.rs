@@ -1,7 +1,6 @@
 //! From swatches to a pigment library with its evidence. Call this if you have swatches already.
 
-use documents::Task;
-use documents::hint::Explain;
+use documents::{Task, hint::Explain};
 use spectra::optics::Surface;
 
 use crate::fit::{

@@ -1,8 +1,7 @@
 //! Compares a library with measurements: how it predicts each sample, and how it predicts mixtures that we
 //! leave out of the fit.
 
-use documents::Task;
-use documents::hint::Explain;
+use documents::{Task, hint::Explain};
 use pigment::palette::{MeasuredSample, Palette};
 use pigment::{PigmentId, Recipe};
 use spectra::optics::Surface;

@@ -4,11 +4,10 @@ use std::path::Path;
 
 use documents::hint::Explain;
 use documents::{Task, counted, question};
-use pigment::PigmentId;
-use pigment::evaluate::Viewing;
 use pigment::library::{AmountKind, Evidence, Input, PigmentLibrary};
 use pigment::remark::Remark;
 use pigment::visible_band::{BandError, check_visible_band};
+use pigment::{PigmentId, evaluate::Viewing};
 use spectra::optics::{Specular, Surface, UnevenFilm};
 
 use crate::absolute::{CHOICE_FITS, calibrate_absolute, chosen_film, films};

@@ -4,8 +4,7 @@ use std::path::{Path, PathBuf};
 
 use documents::file::is_there;
 use documents::hint::Explain;
-use documents::name_list;
-use documents::request::RequestError;
+use documents::{name_list, request::RequestError};
 use pigment::{Backing, Remark};
 use spectra::instrument::split_file_and_name;
 use spectra::{Reflectance, Spectrum, SpectrumError};

@@ -3,9 +3,8 @@
 use std::fs::File;
 use std::path::Path;
 
-use documents::counted;
-use documents::file::FileError;
 use documents::hint::Explain;
+use documents::{counted, file::FileError};
 use pigment::library::Input;
 use pigment::remark::Remark;
 use spectra::instrument::{FileText, Format, InstrumentError, InstrumentFile, bytes_of, read};

@@ -6,12 +6,10 @@
 use std::fmt;
 
 use documents::name_list;
-use pigment::PigmentId;
-use pigment::digits::rounded;
 use pigment::evaluate::{Summary, delta_e, percentile};
 use pigment::library::{Evidence, SampleEvidence};
-use spectra::TristimulusWeights;
-use spectra::optics::Surface;
+use pigment::{PigmentId, digits::rounded};
+use spectra::{TristimulusWeights, optics::Surface};
 
 use crate::fit::{Condition, Unidentified, Unknown};
 use crate::measurement::MeasurementError;

@@ -4,8 +4,7 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::PathBuf;
 
-use divan::Bencher;
-use divan::counter::BytesCount;
+use divan::{Bencher, counter::BytesCount};
 use maps::cube::{Block, Cube};
 
 const SAMPLES: usize = 1024;

@@ -3,8 +3,7 @@
 use std::error::Error;
 use std::path::Path;
 
-use documents::Task;
-use documents::hint::Explain;
+use documents::{Task, hint::Explain};
 
 use crate::cube::{Block, Cube, CubeError};
 use crate::pixel_maps::{BlockMaps, MapError};

@@ -49,8 +49,7 @@ pub use mapping::groups::{ALIKE, Column, Confusion};
 pub use mapping::survey::{SURVEYED, survey_step};
 pub use pixel_maps::{MapError, MapsAbout};
 #[cfg(feature = "files")]
-pub use request::MappedScan;
-pub use request::{GroundSource, MapRequest, MapRequestError};
+pub use request::{GroundSource, MapRequest, MapRequestError, MappedScan};
 #[cfg(feature = "files")]
 pub use store::{MapStore, StoreMode, StoredMaps};
 pub use surveyed::{FoundColumn, Region, Spot, SpotError, SpotPigment, SurveyError, SurveyedScan};

@@ -6,14 +6,12 @@
 use std::ops::Range;
 
 use calibrate::ResidualsError;
-use documents::Cancelled;
-use documents::hint::Explain;
+use documents::{Cancelled, hint::Explain};
 use half::f16;
 use pigment::RecipeError;
 use serde::{Deserialize, Serialize};
 #[cfg(feature = "files")]
-use serde_json::json;
-use serde_json::{Map, Value};
+use serde_json::{Map, Value, json};
 
 /// Whether a pixel is mapped, or why it is not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]

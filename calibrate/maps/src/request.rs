@@ -6,9 +6,8 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use calibrate::{Residuals, ResidualsError};
-use documents::Task;
-use documents::hint::Explain;
 use documents::request::{RequestError, from_text, from_text_or_keys};
+use documents::{Task, hint::Explain};
 use pigment::PigmentLibrary;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -54,7 +53,7 @@ pub struct MapRequest {
     /// Standard deviation of the noise of a band, as a fraction [default: that of the white reading, else
     /// 0.003]
     pub noise: Option<f64>,
-    /// Errors of mixtures that the library had not seen, from `impasto validate READINGS --residuals FILE`
+    /// Errors of mixtures that the library had not seen, from the residuals of `impasto validate`
     /// [default: for the oils that ship their own]
     #[schemars(with = "Option<String>")]
     pub residuals: Option<PathBuf>,
@@ -117,7 +116,7 @@ pub enum GroundSource {
 pub struct MappedScan {
     /// The scan with its survey.
     pub scan: SurveyedScan,
-    /// What the run mapped.
+    /// Counts of the run.
     pub outcome: MapOutcome,
     /// The spots of the request.
     pub spots: Vec<Spot>,

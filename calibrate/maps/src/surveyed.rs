@@ -6,8 +6,7 @@
 
 use std::ops::Range;
 
-use documents::Task;
-use documents::hint::Explain;
+use documents::{Task, hint::Explain};
 use pigment::library::Input;
 use pigment::{PigmentLibrary, RecipeError};
 use serde_json::{Map, Value, json};

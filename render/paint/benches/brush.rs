@@ -4,8 +4,7 @@
 //! Target: 80 microseconds for a contact of 88 x 88 cells, 25 for 26 x 26. Items are cells of the
 //! contact.
 
-use divan::Bencher;
-use divan::counter::ItemsCount;
+use divan::{Bencher, counter::ItemsCount};
 use graphics::field::Field;
 use graphics::tile::Rect;
 use paint::brush::{Head, HeadShape, Relief};

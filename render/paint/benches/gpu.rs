@@ -5,8 +5,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a bench may panic")]
 
-use divan::Bencher;
-use divan::counter::ItemsCount;
+use divan::{Bencher, counter::ItemsCount};
 use graphics::field::Field;
 use graphics::gpu::{BackendChoice, Device, choose};
 use graphics::tile::{Rect, TileSet};

@@ -1,8 +1,7 @@
 //! Benchmarks of light: rendering a painting of three layers, mixing two paints, and fitting
 //! wavelengths.
 
-use divan::Bencher;
-use divan::counter::ItemsCount;
+use divan::{Bencher, counter::ItemsCount};
 use graphics::field::Field;
 use paint::composite::composite_row;
 use paint::document::{Document, DryLayer, LayerId, Lighting, Medium};
@@ -12,9 +11,8 @@ use paint::light::{Light, Mixer};
 use paint::optics::{Gloss, NODES, Scene};
 use paint::scene::{picture, scene};
 use paint::shade::{TopMaterial, Tops, shade_row};
-use pigment::PigmentId;
-use pigment::evaluate::Viewing;
 use pigment::library::PigmentLibrary;
+use pigment::{PigmentId, evaluate::Viewing};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;

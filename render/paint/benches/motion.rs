@@ -6,16 +6,14 @@
 //! which does not simulate paint, reaches 8.5 million cells/s for a dab of radius 32. To measure
 //! one core, set `RAYON_NUM_THREADS=1`.
 
-use divan::Bencher;
-use divan::counter::ItemsCount;
+use divan::{Bencher, counter::ItemsCount};
 use graphics::field::Field;
 use graphics::tile::Rect;
-use paint::BrushId;
-use paint::amount::QUANTA_PER_CELL;
 use paint::contact::{Contact, Touch};
 use paint::engine::PaintEngine;
 use paint::layer::{Cell, Layer};
 use paint::motion::MotionConstants;
+use paint::{BrushId, amount::QUANTA_PER_CELL};
 
 fn main() {
     divan::main();

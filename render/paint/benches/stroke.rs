@@ -28,8 +28,7 @@ use paint::painting::Painting;
 use paint::pose::Sample;
 use paint::session::PaintingSession;
 use paint::strokes::StrokeScript;
-use pigment::PigmentId;
-use pigment::library::PigmentLibrary;
+use pigment::{PigmentId, library::PigmentLibrary};
 
 fn main() {
     divan::main();

@@ -4,9 +4,8 @@
 
 use documents::hint::Explain;
 use graphics::tile::Rect;
-use pigment::RecipeError;
-use pigment::library::PigmentLibrary;
 use pigment::palette::scattering_per_mm;
+use pigment::{RecipeError, library::PigmentLibrary};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 

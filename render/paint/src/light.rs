@@ -6,13 +6,11 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use documents::Task;
-use documents::hint::Explain;
+use documents::{Task, hint::Explain};
 use graphics::lanes::{greater, lesser, multiply_add};
-use pigment::PigmentId;
-use pigment::evaluate::Viewing;
 use pigment::library::{PigmentLibrary, RecipeError};
 use pigment::quadrature::{EffectiveQuadrature, Quadrature, QuadratureFailure};
+use pigment::{PigmentId, evaluate::Viewing};
 use pulp::Simd;
 use spectra::color::{Adaptation, RgbSpace};
 use spectra::{LightError, Observer, ObserverError, light_from_text};

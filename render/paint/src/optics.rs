@@ -3,8 +3,7 @@
 //! This is the only place where we convert the library's f64 to the f32 of painting.
 
 use pigment::quadrature::{EffectiveQuadrature, Quadrature};
-use spectra::Grid;
-use spectra::optics::Surface;
+use spectra::{Grid, optics::Surface};
 
 use crate::amount::QUANTA_PER_CELL;
 use crate::layer::{SLOTS, Slots};

@@ -7,9 +7,8 @@
 
 use documents::hint::Explain;
 use graphics::field::Field;
-use pigment::PigmentId;
-use pigment::library::PigmentLibrary;
 use pigment::quadrature::EffectiveQuadrature;
+use pigment::{PigmentId, library::PigmentLibrary};
 use rayon::prelude::*;
 use spectra::optics::{Layer as Film, Surface};
 

@@ -13,7 +13,7 @@ use crate::watercolor_job::WatercolorJob;
 #[derive(Debug)]
 pub struct PictureJob {
     work: Work,
-    /// What happened while the request was checked.
+    /// Notes on the checks of the request.
     notes: Vec<Note>,
 }
 

@@ -13,8 +13,7 @@ use paint::ground::GroundKind;
 use paint::layer::{Cell, Layer, SLOTS};
 use paint::light::Light;
 use paint::painting::Painting;
-use paint::{BrushId, PaintEngine};
-use paint::{HeadShape, Sample};
+use paint::{BrushId, HeadShape, PaintEngine, Sample};
 use spectra::color::{Lab, RgbSpace};
 
 use super::heights::Heights;

@@ -451,7 +451,11 @@ fn lights_without_colour_rendering_are_refused_or_marked() {
     std::fs::write(&path, "nm,power\n400,0\n500,0\n530,1\n560,0\n700,0\n").unwrap();
     let green = impasto(&["light", path.to_str().unwrap()]);
     assert!(green.status == 1 && green.out.is_empty(), "{}", green.out);
-    assert!(green.err.contains("not a white light") && green.err.contains("hint: "), "{}", green.err);
+    assert!(
+        green.err.contains("not a white light") && green.err.contains("hint: "),
+        "{}",
+        green.err
+    );
     let unknown = impasto(&["light", "F11"]);
     assert!(unknown.status == 2 && unknown.err.contains("did you mean FL11?"), "{}", unknown.err);
     let far = impasto(&["light", "FL3.3", "HP1", "LED-V1"]).out;

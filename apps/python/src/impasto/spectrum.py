@@ -130,7 +130,7 @@ def _of_pandas(value: Any) -> Spectrum:
     try:
         nm = [float(str(label).strip().removesuffix("nm")) for label in labels]
     except ValueError as error:
-        raise Error(f"a label is no wavelength: {error}", "keep the columns of wavelengths only") from None
+        raise Error(f"a label is not a wavelength: {error}", "keep the columns of wavelengths only") from None
     names = [str(name) for name in value.index] if value.ndim == 2 else [str(value.name or "")]
     values = value.to_numpy()
     if values.dtype == object:

@@ -2,8 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use documents::file::disk;
-use documents::file::{read, write_whole};
+use documents::file::{disk, read, write_whole};
 
 use super::reading::BrushFileError;
 use super::set::BrushSet;

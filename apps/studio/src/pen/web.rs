@@ -12,8 +12,7 @@ use eframe::egui::Pos2;
 use eframe::egui::{Context, RawInput};
 
 #[cfg(target_arch = "wasm32")]
-use super::report::Stamp;
-use super::report::{Device, PointerState, Report, ReportKind};
+use super::report::{Device, PointerState, Report, ReportKind, Stamp};
 use crate::language::tr;
 #[cfg(target_arch = "wasm32")]
 use web_time::Duration;

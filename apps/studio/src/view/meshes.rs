@@ -13,8 +13,7 @@ use eframe::egui::{
     Context, FullOutput, Mesh, PaintCallbackInfo, Plugin, Pos2, Rect, Shape, TextureFilter,
     TextureId,
 };
-use eframe::egui_wgpu::Callback;
-use eframe::egui_wgpu::{CallbackResources, CallbackTrait, ScreenDescriptor, wgpu};
+use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, ScreenDescriptor, wgpu};
 use wgpu::util::DeviceExt;
 use wgpu::{Buffer, BufferUsages, Device, IndexFormat, Queue, TextureFormat};
 

@@ -1,10 +1,8 @@
 //! Data of a fit as arrays: K/S of the mixtures, K and S of all pigments.
 
-use documents::Cancelled;
-use documents::hint::Explain;
+use documents::{Cancelled, hint::Explain};
 use pigment::{Curves, PigmentId};
-use spectra::Grid;
-use spectra::optics::Surface;
+use spectra::{Grid, optics::Surface};
 
 use crate::observation::Observation;
 

@@ -1,8 +1,7 @@
 //! Paints and recipes of a plan, the empty measurement file that you fill in, and reasons why a plan is
 //! impossible.
 
-use documents::Cancelled;
-use documents::hint::Explain;
+use documents::{Cancelled, hint::Explain};
 use pigment::{PigmentId, Recipe, RecipeError};
 use spectra::Grid;
 

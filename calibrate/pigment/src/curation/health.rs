@@ -1,8 +1,7 @@
 //! Checks of a library for faults and doubtful values. You can also compare two libraries of the same
 //! pigments, as in quality control of batches.
 
-use rand::SeedableRng;
-use rand::seq::index;
+use rand::{SeedableRng, seq::index};
 use rand_chacha::ChaCha8Rng;
 use spectra::TristimulusWeights;
 use spectra::color::{Lab, delta_e_ciede2000};

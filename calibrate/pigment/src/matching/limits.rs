@@ -1,8 +1,7 @@
 //! Limits of recipes. You give pigments by their places in a library, and the film that a recipe makes. You also
 //! find here the reasons why there are no recipes.
 
-use documents::Cancelled;
-use documents::hint::Explain;
+use documents::{Cancelled, hint::Explain};
 use spectra::InterpolateError;
 
 use super::target::{Metric, ViewingCondition};

@@ -1,8 +1,7 @@
 //! The search for recipes by name. You pass options and get recipes. If the target is far from all of them,
 //! we also search in another way. You can write the recipes as JSON for programs.
 
-use documents::Task;
-use documents::hint::Hint;
+use documents::{Task, hint::Hint};
 use serde_json::{Map, Value, json};
 use spectra::Grid;
 use spectra::color::{Adaptation, Lab, Rgb, RgbSpace};

@@ -3,8 +3,7 @@
 //! [`GaussRule`] is the Gaussian quadrature of a tabulated weight function. [`MixtureSet`] holds seeded random
 //! mixtures with their exact colours.
 
-use documents::Cancelled;
-use documents::hint::Explain;
+use documents::{Cancelled, hint::Explain};
 use nalgebra::{DMatrix, SymmetricEigen};
 use rand::seq::index;
 use rand::{RngExt, SeedableRng};

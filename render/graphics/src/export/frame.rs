@@ -3,8 +3,7 @@
 
 use std::io::{BufRead, Seek};
 
-use documents::counted;
-use documents::hint::Explain;
+use documents::{counted, hint::Explain};
 use png::{BitDepth, ColorType, Compression, Decoder, Encoder, SrgbRenderingIntent};
 use rayon::prelude::*;
 

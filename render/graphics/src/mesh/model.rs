@@ -6,8 +6,7 @@
 
 use std::ops::Range;
 
-use documents::counted_as;
-use documents::hint::Explain;
+use documents::{counted_as, hint::Explain};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 

@@ -4,8 +4,7 @@ use rand::{RngExt, SeedableRng};
 
 use super::{BrushError, Head, HeadShape, NODES, Relief, SideBySide, StrokeTool};
 use crate::amount::QUANTA_PER_CELL;
-use crate::contact::Contact;
-use crate::contact::Touch;
+use crate::contact::{Contact, Touch};
 use crate::pose::Pose;
 use graphics::tile::Rect;
 

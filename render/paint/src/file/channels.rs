@@ -1,8 +1,7 @@
 //! Channels of a part of a file. Use this to name parts and channels, to find the channel of a
 //! pigment, and to convert amounts to mm.
 
-use pigment::PigmentId;
-use pigment::library::PigmentLibrary;
+use pigment::{PigmentId, library::PigmentLibrary};
 use serde::{Deserialize, Serialize};
 
 use crate::amount::QUANTA_PER_CELL;

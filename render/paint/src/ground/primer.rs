@@ -6,11 +6,10 @@
 
 use std::collections::BTreeMap;
 
-use pigment::PigmentId;
-use pigment::evaluate::Viewing;
 use pigment::library::PigmentLibrary;
 use pigment::palette::scattering_per_mm;
 use pigment::smooth_reflectance::smoothest_reflectance;
+use pigment::{PigmentId, evaluate::Viewing};
 use serde::{Deserialize, Serialize};
 use spectra::color::{Adaptation, Rgb, RgbSpace};
 use spectra::optics::UnevenFilm;

@@ -6,8 +6,7 @@ use crate::layer::LayerId;
 use crate::light::PaintLightError;
 use crate::stroke::StrokeError;
 use crate::strokes::{InvalidValue, ScriptError, ScriptStartError};
-use documents::counted;
-use documents::hint::Explain;
+use documents::{counted, hint::Explain};
 use graphics::gpu::DeviceError;
 
 /// Why a painting or its session refuses an action. Nothing is changed then, unless the device failed.

@@ -4,8 +4,7 @@
 use std::io::Write;
 
 use glam::Vec3;
-use rand::SeedableRng;
-use rand::seq::SliceRandom;
+use rand::{SeedableRng, seq::SliceRandom};
 use rand_chacha::ChaCha8Rng;
 
 use super::scene::{Scene, Surfaces, camera, random_scene, wall};

@@ -5,8 +5,7 @@ mod scene;
 mod device;
 
 use glam::Vec3;
-use rand::SeedableRng;
-use rand::seq::SliceRandom;
+use rand::{SeedableRng, seq::SliceRandom};
 use rand_chacha::ChaCha8Rng;
 
 use crate::field::Field;
