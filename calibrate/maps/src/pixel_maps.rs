@@ -11,7 +11,8 @@ use half::f16;
 use pigment::RecipeError;
 use serde::{Deserialize, Serialize};
 #[cfg(feature = "files")]
-use serde_json::{Map, Value, json};
+use serde_json::json;
+use serde_json::{Map, Value};
 
 /// Whether a pixel is mapped, or why it is not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
