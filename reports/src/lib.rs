@@ -72,6 +72,7 @@ mod report;
 #[cfg(feature = "pictures")]
 pub use picture::PictureError;
 #[cfg(feature = "pictures")]
-pub use report::{Head, Report, STEPS, Warning, absences, page_alone};
+pub use report::Report;
+pub use report::{Head, STEPS, Warning, absences, page_alone};
 pub use request::{PreparedReport, ReportError, ReportRequest};
 pub use subject::Subject;

@@ -49,7 +49,8 @@ pub use mapping::groups::{ALIKE, Column, Confusion};
 pub use mapping::survey::{SURVEYED, survey_step};
 pub use pixel_maps::{MapError, MapsAbout};
 #[cfg(feature = "files")]
-pub use request::{GroundSource, MapRequest, MapRequestError, MappedScan};
+pub use request::MappedScan;
+pub use request::{GroundSource, MapRequest, MapRequestError};
 #[cfg(feature = "files")]
 pub use store::{MapStore, StoreMode, StoredMaps};
 pub use surveyed::{FoundColumn, Region, Spot, SpotError, SpotPigment, SurveyError, SurveyedScan};

@@ -12,7 +12,8 @@ use eframe::egui::Pos2;
 use eframe::egui::{Context, RawInput};
 
 #[cfg(target_arch = "wasm32")]
-use super::report::{Device, PointerState, Report, ReportKind, Stamp};
+use super::report::Stamp;
+use super::report::{Device, PointerState, Report, ReportKind};
 use crate::language::tr;
 #[cfg(target_arch = "wasm32")]
 use web_time::Duration;
