@@ -11,7 +11,7 @@ use documents::request::{RequestError, request_of};
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde::de::DeserializeOwned;
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Number, Value, json};
 
 use crate::failure::{Failure, Result};
 
@@ -264,7 +264,8 @@ impl Key {
     /// stays a text, so that the request can refuse it.
     fn value(&self, texts: Vec<String>) -> Value {
         let whole = |text: &String| text.parse::<u64>().ok().map(Value::from);
-        let number = |text: &String| text.parse::<f64>().ok().map(|number| json!(number));
+        // JSON has no NaN and no infinity. As text they are refused.
+        let number = |text: &String| text.parse().ok().and_then(Number::from_f64).map(Value::from);
         match (&self.kind, &texts[..]) {
             (Kind::Flag, _) => Value::Bool(true),
             (Kind::Whole(_), [text]) => whole(text).unwrap_or_else(|| json!(text)),

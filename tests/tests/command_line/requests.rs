@@ -105,6 +105,15 @@ fn a_value_of_a_map_that_an_option_does_not_take_is_refused_before_the_scan_is_o
 }
 
 #[test]
+fn a_number_that_json_has_not_is_refused() {
+    for (option, value) in [("--noise", "nan"), ("--penalty", "inf")] {
+        let run = impasto(&["map", "no-such-scan.hdr", option, value]);
+        let wanted = format!("{option}: invalid type: text \"{value}\", expected a number");
+        assert!(run.status == 2 && run.err.contains(&wanted), "{}", run.err);
+    }
+}
+
+#[test]
 fn only_a_surface_can_exclude_its_specular_reflection() {
     let oils = repository("measurements/van-gogh-oils.csv");
     let folder = tempfile::tempdir().unwrap();

@@ -31,13 +31,14 @@ class Survey:
     ) -> None:
         """`settings` holds the request with the keys of `MapRequest` in docs/schema/requests.json, the JSON of
         residuals, and wavelengths and reflectances of the ground."""
-        residuals = settings["residuals"]
+        residuals, ground = settings["residuals"], settings["ground"]
         native = _native.Survey(
             cube._native,
             library._native,
             json.dumps(settings["request"]),
             None if residuals is None else _native.Residuals.from_json(residuals),
-            settings["ground"],
+            # A job of a worker holds it as a list.
+            None if ground is None else tuple(ground),
             book,
             progress,
         )
