@@ -302,7 +302,7 @@ fn summary<'a>(
     }
 }
 
-/// What all fits without some of the samples share.
+/// Data that all fits without some of the samples share.
 pub(crate) struct Refits<'a> {
     pub(crate) set: &'a SwatchSet,
     pub(crate) observations: &'a [Observation],

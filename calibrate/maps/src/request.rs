@@ -50,7 +50,7 @@ pub struct MapRequest {
     pub groups: Vec<PigmentGroup>,
     /// Map each pigment by itself, also those that the bands cannot tell apart
     pub apart: bool,
-    /// Standard deviation of the noise of a band, as a fraction [default: that of the white reading, else
+    /// Standard deviation of the noise of a band, as a fraction [default: the noise of the white reading, else
     /// 0.003]
     pub noise: Option<f64>,
     /// Errors of mixtures that the library had not seen, from the residuals of `impasto validate`
@@ -71,8 +71,8 @@ pub struct MapRequest {
     #[serde(serialize_with = "write_region", deserialize_with = "read_region")]
     #[schemars(schema_with = "region_schema")]
     pub region: Option<Region>,
-    /// A pixel or region to compare, its measured spectrum beside that of the mixture that explains it, such
-    /// as 120,40 or 120..124,40..44; may be repeated
+    /// A pixel or region to compare, such as 120,40 or 120..124,40..44: you see its measured spectrum
+    /// beside the spectrum of its mapped mixture (may be repeated)
     #[serde(serialize_with = "write_spots", deserialize_with = "read_spots")]
     #[schemars(with = "Vec<String>")]
     pub spots: Vec<Region>,
@@ -565,7 +565,7 @@ mod tests {
                 "ground: the spectrum of the ground reflects 3 at 700 nm",
                 numbers,
             ),
-            (r#"{"palete": []}"#, "unknown key `palete`", "did you mean palette?"),
+            (r#"{"palettes": []}"#, "unknown key `palettes`", "did you mean palette?"),
         ] {
             let error = request_from_json::<MapRequest>(json).unwrap_err();
             let found = error.hint().map(|hint| hint.to_string());

@@ -24,7 +24,7 @@ pub(crate) struct Maps {
     regions: Regions,
 }
 
-/// The map of everything else, and those of materials.
+/// The maps that a request names: one for everything, and one for each material that has its own.
 struct Chosen<'a> {
     base: Option<&'a str>,
     of_material: Vec<(&'a str, &'a str)>,

@@ -237,6 +237,14 @@ pub enum PictureError {
     PixelsPerCell(#[from] PixelsPerCellError),
 }
 
+impl PictureError {
+    /// The error for a path of the camera without a frame.
+    pub(crate) fn no_frames() -> Self {
+        let message = "the camera path has no frames".to_owned();
+        Self::Data { message, hint: "give frames = 60" }
+    }
+}
+
 impl From<BackingTextError> for PictureError {
     fn from(error: BackingTextError) -> Self {
         match error {

@@ -28,14 +28,13 @@ use painterly::{
 };
 use spectra::Viewing;
 
-use crate::animation::{Animation, FramesDigest};
+use crate::animation::FramesDigest;
 use crate::brushwork::Maps;
 use crate::error::{PictureError, SettingError};
-use crate::exports::{Listener, Note, OpenExports, PX_MM, StageFolder};
-use crate::request::{PainterlyRequest, PictureRequest, TechniqueOutcome};
+use crate::exports::{Listener, Note, PX_MM};
+use crate::request::{OpenOutputs, PainterlyRequest, PictureRequest, Summary, TechniqueOutcome};
 use crate::style::palette;
 use crate::subject::{self, MOST_FRAMES, PictureViews, check_range};
-use crate::watercolor_job::{Summary, check_animation, no_frames};
 
 /// A subject with brushwork, materials and outputs that were checked.
 #[derive(Debug)]
@@ -45,10 +44,8 @@ pub(crate) struct PainterlyJob {
     maps: Maps,
     /// Title, ground and pigments, if it is a painting.
     painting: Option<Materials>,
-    exports: OpenExports,
-    stages: Option<StageFolder>,
+    outputs: OpenOutputs,
     exr_frames: Option<ExrFrames>,
-    animation: Option<Animation>,
 }
 
 /// A subject, and the pictures of it.
@@ -96,18 +93,14 @@ impl PainterlyJob {
         inputs.extend(request.style.settings.iter().chain(&request.pigments.library).cloned());
         let scene = scene(subject, request, own, &settings)?;
         let painting = materials(request, own, listener)?;
-        let animation = animation.open(&inputs)?;
-        let exports = exports.clone().open(&inputs)?;
-        check_animation(&exports, animation.as_ref().and_then(Animation::file))?;
-        let stages = request.stages.as_deref();
-        let stages = stages.map(|folder| StageFolder::open(folder, &inputs)).transpose()?;
+        let outputs = request.open_outputs(&inputs)?;
         let exr_frames = own.exr_frames.as_deref();
         let exr_frames = exr_frames
             .map(|folder| ExrFrames::open(folder, scene.cameras.len(), &inputs))
             .transpose()?;
         let preset = request.style.preset::<Painter>()?.unwrap_or(Preset::Impressionist);
         let maps = own.maps(preset.style(), task)?;
-        Ok(Self { settings, scene, maps, painting, exports, stages, exr_frames, animation })
+        Ok(Self { settings, scene, maps, painting, outputs, exr_frames })
     }
 
     /// Paints the subject. The picture and the stages show it from the first camera, frames from all cameras.
@@ -117,7 +110,8 @@ impl PainterlyJob {
         task: &Task,
         listener: &mut Listener<'_>,
     ) -> Result<Summary, PictureError> {
-        let Self { settings, scene, maps, painting, exports, stages, exr_frames, animation } = self;
+        let Self { settings, scene, maps, painting, outputs, exr_frames } = self;
+        let OpenOutputs { exports, stages, animation } = outputs;
         let Scene { form, cameras, size } = scene;
         let brushwork = maps.brushwork();
         let backend = compute.name().to_owned();
@@ -243,7 +237,7 @@ fn frames(
     own: &PainterlyRequest,
     settings: &Settings,
 ) -> Result<Vec<Camera>, PictureError> {
-    let Some(&first) = cameras.first() else { return Err(no_frames()) };
+    let Some(&first) = cameras.first() else { return Err(PictureError::no_frames()) };
     check_range("loop", own.loop_frames, [1, MOST_FRAMES])?;
     let Some(frames) = own.loop_frames else {
         if cameras.len() < 2 && request.animation.any() {

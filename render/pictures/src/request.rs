@@ -8,8 +8,9 @@ use graphics::gpu::BackendChoice;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::animation::AnimationRequest;
-use crate::exports::ExportRequest;
+use crate::animation::{Animation, AnimationRequest};
+use crate::error::{PictureError, SettingError};
+use crate::exports::{ExportRequest, OpenExports, StageFolder};
 use crate::style::StyleRequest;
 use crate::subject::ViewRequest;
 
@@ -87,6 +88,30 @@ impl PictureRequest {
         let stem = self.subject.file_stem().map(|stem| stem.to_string_lossy().into_owned());
         stem.unwrap_or_default()
     }
+
+    /// Checks the files that every technique writes. They must not replace `inputs`, and the picture and the
+    /// animation must not be one file. Call this last, because it creates folders.
+    pub(crate) fn open_outputs(&self, inputs: &[PathBuf]) -> Result<OpenOutputs, PictureError> {
+        let animation = self.animation.open(inputs)?;
+        let exports = self.exports.clone().open(inputs)?;
+        let file = animation.as_ref().and_then(Animation::file);
+        if let Some(file) = file.filter(|file| exports.writes(file)) {
+            let path = file.path().display();
+            let message = format!("{path}: the picture and the animation have this file name");
+            return Err(SettingError::whole(message, "give each its own file name").into());
+        }
+        let stages = self.stages.as_deref();
+        let stages = stages.map(|folder| StageFolder::open(folder, inputs)).transpose()?;
+        Ok(OpenOutputs { exports, stages, animation })
+    }
+}
+
+/// Outputs that were checked to be writable.
+#[derive(Debug)]
+pub(crate) struct OpenOutputs {
+    pub(crate) exports: OpenExports,
+    pub(crate) stages: Option<StageFolder>,
+    pub(crate) animation: Option<Animation>,
 }
 
 /// A technique of painting, with what it alone takes.
@@ -119,7 +144,7 @@ pub struct PainterlyRequest {
     /// The map (.exr). MATERIAL=FILE is for the parts of a model with that material
     pub map: Vec<String>,
     /// Paint samples in this style and make a map of them: oil-flat, oil-long, dabs, knife, hatching,
-    /// dry-brush, or a file (.toml) [default: that of the preset, or oil-flat]
+    /// dry-brush, or a file (.toml) [default: the style of the preset, or oil-flat]
     pub style: Option<String>,
     /// Regions with a map, direction, size, flow or tones of their own (.toml)
     pub regions: Option<PathBuf>,
@@ -163,8 +188,8 @@ impl Default for PainterlyRequest {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct PigmentRequest {
-    /// Library of the pigments. Without it a watercolor has no pigments, and a painting has those of its map, or
-    /// the Van Gogh oils that ship
+    /// Library of the pigments. Without it a watercolor has no pigments. A painting then has the pigments of its
+    /// map or, if you name a palette, the Van Gogh oils that ship
     pub library: Option<PathBuf>,
     /// Names of up to eight pigments of the library [default: the ones nearest to the picture's
     /// colours]
@@ -251,6 +276,19 @@ pub enum TechniqueOutcome {
     },
 }
 
+/// Results of a finished job, without the notes of its run.
+pub(crate) struct Summary {
+    /// Width and height in pixels.
+    pub(crate) size: (usize, usize),
+    /// Name of the device.
+    pub(crate) backend: String,
+    pub(crate) technique: TechniqueOutcome,
+    /// Number of frames, and the number of these that existed already.
+    pub(crate) frames: Option<(usize, usize)>,
+    /// Names of the pigments.
+    pub(crate) pigments: Vec<String>,
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -290,8 +328,8 @@ mod tests {
         let of = |rest: &str| format!(r#"{{"subject": "a.jpg", "technique": {rest}}}"#);
         for (json, message, hint) in [
             (
-                of(r#"{"watercolor": {"density_maks": "a.png"}}"#),
-                "unknown key `density_maks`",
+                of(r#"{"watercolor": {"density_masks": "a.png"}}"#),
+                "unknown key `density_masks`",
                 "did you mean density_mask?",
             ),
             (

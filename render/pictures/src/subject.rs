@@ -170,8 +170,8 @@ impl ViewRequest {
         }
     }
 
-    /// Where cameras stand that turn a picture, in degrees to the right and upwards from straight
-    /// before it: one, or those of a swing around that place.
+    /// Positions of the cameras of a picture, in degrees to the right and upwards from straight
+    /// before it: one position, or all positions of a swing around it.
     ///
     /// # Errors
     /// The errors of [`Self::picture_camera`].

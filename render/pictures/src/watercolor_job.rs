@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use calibrate::{backing_from_text, library::PigmentLibrary};
-use documents::{Task, file::Output};
+use documents::Task;
 use graphics::{
     camera::Camera,
     compute::Compute,
@@ -21,10 +21,10 @@ use paint::{
 use spectra::Viewing;
 use watercolor::{Form, GlazePainter, Masks, Settings, WatercolorPainter};
 
-use crate::animation::{Animation, FramesDigest};
+use crate::animation::FramesDigest;
 use crate::error::{PictureError, SettingError};
-use crate::exports::{Listener, Note, OpenExports, StageFolder};
-use crate::request::{PictureRequest, TechniqueOutcome, WatercolorRequest};
+use crate::exports::{Listener, Note};
+use crate::request::{OpenOutputs, PictureRequest, Summary, TechniqueOutcome, WatercolorRequest};
 use crate::style::palette;
 use crate::subject::{PictureViews, Subject};
 
@@ -36,35 +36,7 @@ pub(crate) struct WatercolorJob {
     settings: Settings,
     glazes: Option<GlazePainter>,
     masks: [Option<PathBuf>; 2],
-    exports: OpenExports,
-    stages: Option<StageFolder>,
-    animation: Option<Animation>,
-}
-
-/// Size, device, frames with those that existed already, and pigments of a finished job.
-pub(crate) struct Summary {
-    pub(crate) size: (usize, usize),
-    pub(crate) backend: String,
-    pub(crate) technique: TechniqueOutcome,
-    pub(crate) frames: Option<(usize, usize)>,
-    pub(crate) pigments: Vec<String>,
-}
-
-/// The error for a path of the camera without a frame.
-pub(crate) fn no_frames() -> PictureError {
-    let message = "the camera path has no frames".to_owned();
-    PictureError::Data { message, hint: "give frames = 60" }
-}
-
-/// The picture and the animation must not be one file.
-pub(crate) fn check_animation(
-    exports: &OpenExports,
-    animation: Option<&Output>,
-) -> Result<(), SettingError> {
-    let Some(file) = animation.filter(|file| exports.writes(file)) else { return Ok(()) };
-    let path = file.path().display();
-    let message = format!("{path}: the picture and the animation have this file name");
-    Err(SettingError::whole(message, "give each its own file name"))
+    outputs: OpenOutputs,
 }
 
 impl WatercolorJob {
@@ -102,15 +74,10 @@ impl WatercolorJob {
             Some(path) => Some(glaze_painter(path, request, own, &settings, listener)?),
             None => None,
         };
-        let animation = animation.open(&inputs)?;
-        // Last, because it creates folders.
-        let exports = exports.clone().open(&inputs)?;
-        check_animation(&exports, animation.as_ref().and_then(Animation::file))?;
-        let stages = request.stages.as_deref();
-        let stages = stages.map(|folder| StageFolder::open(folder, &inputs)).transpose()?;
+        let outputs = request.open_outputs(&inputs)?;
         let masks = [own.dry_brush_mask.clone(), own.density_mask.clone()];
         let title = request.title();
-        Ok(Self { subject, title, settings, glazes, masks, exports, stages, animation })
+        Ok(Self { subject, title, settings, glazes, masks, outputs })
     }
 
     /// Paints the subject. The picture and the stages show a mesh from the first camera, the animation from
@@ -121,7 +88,8 @@ impl WatercolorJob {
         task: &Task,
         listener: &mut Listener<'_>,
     ) -> Result<Summary, PictureError> {
-        let Self { subject, title, settings, mut glazes, masks, exports, stages, animation } = self;
+        let Self { subject, title, settings, mut glazes, masks, outputs } = self;
+        let OpenOutputs { exports, stages, animation } = outputs;
         let [dry_brush, density] =
             masks.map(|path| path.as_deref().map(Photograph::open).transpose());
         let masks = Masks { dry_brush: dry_brush?, density: density? };
@@ -147,7 +115,7 @@ impl WatercolorJob {
         let size = size.unwrap_or_else(|| painter.size());
         let view = match &cameras {
             None => None,
-            Some(cameras) => Some(cameras.first().ok_or_else(no_frames)?),
+            Some(cameras) => Some(cameras.first().ok_or_else(PictureError::no_frames)?),
         };
         let count = cameras.as_ref().map_or(1, Vec::len);
         let recording = match animation {

@@ -33,7 +33,7 @@ const NAMES: usize = 8;
     override_usage = "impasto correct [OPTIONS] [LIBRARY] <TARGET> <BATCH> --made <PIGMENT=GRAMS>..."
 )]
 pub(crate) struct Correct {
-    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else the Van Gogh oils that ship],
+    /// The pigment library (JSON) [default: the one in IMPASTO_LIBRARY, else the Van Gogh oils that ship],
     /// then the target (#rrggbb, L,a,b, or a measured standard, FILE or FILE#SAMPLE), then the spectrum
     /// of the batch, FILE or FILE#SAMPLE
     #[arg(required = true, value_name = "[LIBRARY] TARGET BATCH")]

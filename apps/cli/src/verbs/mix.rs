@@ -19,7 +19,7 @@ use crate::surface::ground;
 #[derive(Debug, Args)]
 #[command(override_usage = "impasto mix [OPTIONS] [LIBRARY] <NAME=PARTS>...")]
 pub(crate) struct Mix {
-    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else
+    /// The pigment library (JSON) [default: the one in IMPASTO_LIBRARY, else
     /// the Van Gogh oils that ship], then pigments and parts, NAME=PARTS; a name may be
     /// abbreviated
     #[arg(required = true, value_name = "[LIBRARY] NAME=PARTS")]

@@ -50,7 +50,7 @@ use crate::technique::{painted, prepared};
 )]
 pub(crate) struct Paint {
     /// The script (.json), then the pigment library (JSON) [default: the one that the script names, if
-    /// it is found beside the script; else that of IMPASTO_LIBRARY, else the Van Gogh oils that ship].
+    /// it is found beside the script; else the one in IMPASTO_LIBRARY, else the Van Gogh oils that ship].
     /// With --from only the library
     #[arg(required_unless_present = "from", num_args = 1..=2, value_names = ["SCRIPT", "LIBRARY"])]
     words: Vec<PathBuf>,

@@ -144,7 +144,7 @@ struct BrushworkOptions {
     map: Vec<String>,
     /// Paint samples in this style and make a map of them, with the defaults of `artmap paint` and
     /// `artmap build`: oil-flat, oil-long, dabs, knife, hatching, dry-brush, or a file (.toml)
-    /// [default: that of the preset, or oil-flat]
+    /// [default: the style of the preset, or oil-flat]
     #[arg(long, value_name = "NAME|FILE")]
     style: Option<String>,
     /// Regions with a map, direction, size, flow or tones of their own (.toml)
@@ -172,8 +172,8 @@ struct PigmentOptions {
     /// other than --picture imply it
     #[arg(long)]
     with_pigments: bool,
-    /// Library of the pigments for the colours of a model or photograph [default: that of the map, else
-    /// that of IMPASTO_LIBRARY, else the Van Gogh oils that ship]
+    /// Library of the pigments for the colours of a model or photograph [default: the library of the
+    /// map, else the one in IMPASTO_LIBRARY, else the Van Gogh oils that ship]
     #[arg(value_name = "LIBRARY", group = "library_of_paint")]
     pigments: Option<PathBuf>,
     /// Old name of LIBRARY

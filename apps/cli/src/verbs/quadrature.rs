@@ -34,7 +34,7 @@ impl CommandLine for QuadratureRequest {
 /// coloured grounds.
 #[derive(Debug, Args)]
 pub(crate) struct Quadrature {
-    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else none]
+    /// The pigment library (JSON) [default: the one in IMPASTO_LIBRARY, else none]
     library: Option<PathBuf>,
     #[command(flatten)]
     request: RequestOptions<QuadratureRequest>,

@@ -37,7 +37,7 @@ use crate::surface::ground;
     mut_arg("white_reading", |option| option.alias("white"))
 )]
 pub(crate) struct Match {
-    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else
+    /// The pigment library (JSON) [default: the one in IMPASTO_LIBRARY, else
     /// the Van Gogh oils that ship], then target colours, one or more
     #[arg(required = true, value_name = "[LIBRARY] TARGET")]
     words: Vec<String>,

@@ -37,7 +37,7 @@ impl CommandLine for ReportRequest {
     mut_arg("white_reading", |option| option.alias("white"))
 )]
 pub(crate) struct Report {
-    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else
+    /// The pigment library (JSON) [default: the one in IMPASTO_LIBRARY, else
     /// the Van Gogh oils that ship], then measurement files, as for `fit`; without them only
     /// the library is drawn
     #[arg(value_name = "[LIBRARY] [READINGS]")]

@@ -241,7 +241,7 @@ impl<'d> Painting<'d> {
         Ok(truth.add(&found)?)
     }
 
-    /// What you see at a cell, in shares: first of the pigments, then of the layers, then of the
+    /// Shares of the paint that you see at a cell: first of the pigments, then of the layers, then of the
     /// ground.
     fn seen(&self, x: usize, y: usize) -> Vec<f64> {
         let seen = self.exact.seen(x, y);

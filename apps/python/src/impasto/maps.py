@@ -119,7 +119,7 @@ def survey(
 
     `at_most` pigments of one pixel, 1 to 4; `palette` names those that may take part; `groups` are mapped as
     one, and with `group_alike` also pigments that the bands cannot tell apart. `noise` is the standard
-    deviation of a band as a fraction (default: that of the white reading, else 0.003). `residuals` are the
+    deviation of a band as a fraction (default: the noise of the white reading, else 0.003). `residuals` are the
     errors of mixtures that the library had not seen, `validate(..).residuals` or their file, or `model_error`
     is the standard deviation of K and S relative to their values (default: the residuals of the oils that
     ship, else 0.1). `ground` is the bare ground, a spectrum or rows and columns of the scan that show it: its

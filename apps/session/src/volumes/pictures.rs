@@ -1,5 +1,5 @@
-//! What you can ask of a scene: pictures, its painting, what lies at a place of the picture, and
-//! its script.
+//! Answers questions about a scene: its pictures and its painting, what lies at a place of the
+//! picture, and its script.
 
 use glam::Vec3;
 use graphics::camera::Camera;

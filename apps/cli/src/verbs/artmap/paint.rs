@@ -32,7 +32,7 @@ pub(super) struct Paint {
     #[arg(long, value_name = "NAME", conflicts_with_all = ["style", "output"],
           value_parser = PossibleValuesParser::new(Style::ALL))]
     show_style: Option<String>,
-    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else the Van Gogh oils that ship]
+    /// The pigment library (JSON) [default: the one in IMPASTO_LIBRARY, else the Van Gogh oils that ship]
     library: Option<PathBuf>,
     /// Old name of LIBRARY
     #[arg(long, value_name = "LIBRARY", hide = true, conflicts_with = "library")]

@@ -25,7 +25,7 @@ const WORST: usize = 3;
 /// not a library, and a library with faults, end with exit status 1.
 #[derive(Debug, Args)]
 pub(super) struct Check {
-    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else
+    /// The pigment library (JSON) [default: the one in IMPASTO_LIBRARY, else
     /// the Van Gogh oils that ship]
     library: Option<PathBuf>,
     #[command(flatten)]

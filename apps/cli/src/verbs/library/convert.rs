@@ -41,7 +41,7 @@ enum Amounts {
 #[derive(Debug, Args)]
 pub(super) struct Convert {
     /// The pigment library (JSON), or a table of K and S (CSV) as `export --to csv` writes it
-    /// [default: that of IMPASTO_LIBRARY, else
+    /// [default: the one in IMPASTO_LIBRARY, else
     /// the Van Gogh oils that ship]
     library: Option<PathBuf>,
     /// The library file to write (JSON)
@@ -334,7 +334,7 @@ impl Merge {
     override_usage = "impasto library rename [OPTIONS] --output <FILE> [LIBRARY] [OLD=NEW]..."
 )]
 pub(super) struct Rename {
-    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else
+    /// The pigment library (JSON) [default: the one in IMPASTO_LIBRARY, else
     /// the Van Gogh oils that ship], then names to change, all at once; the old name may be
     /// abbreviated
     #[arg(value_name = "[LIBRARY] OLD=NEW")]
@@ -397,7 +397,7 @@ fn pairs(texts: &[String]) -> Result<Vec<(String, String)>> {
     override_usage = "impasto library subset [OPTIONS] --output <FILE> [LIBRARY] [PIGMENT]..."
 )]
 pub(super) struct Subset {
-    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else
+    /// The pigment library (JSON) [default: the one in IMPASTO_LIBRARY, else
     /// the Van Gogh oils that ship], then the pigments to keep; a name may be abbreviated
     /// [default: all]
     #[arg(value_name = "[LIBRARY] PIGMENT")]

@@ -47,7 +47,7 @@ enum Space {
 /// Lab under D50, to which colours under another light are adapted (Bradford).
 #[derive(Debug, Args)]
 pub(super) struct Export {
-    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else
+    /// The pigment library (JSON) [default: the one in IMPASTO_LIBRARY, else
     /// the Van Gogh oils that ship]
     library: Option<PathBuf>,
     /// Format of the output file [default: by its ending]

@@ -60,7 +60,7 @@ impl Library {
 /// List the pigments, each with its masstone and a tint in the reference white
 #[derive(Debug, Args)]
 struct List {
-    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else
+    /// The pigment library (JSON) [default: the one in IMPASTO_LIBRARY, else
     /// the Van Gogh oils that ship]
     library: Option<PathBuf>,
     #[command(flatten)]
@@ -166,7 +166,7 @@ pub(crate) fn print_pigments(
 #[derive(Debug, Args)]
 #[command(override_usage = "impasto library show [OPTIONS] [LIBRARY] <PIGMENT>")]
 struct Show {
-    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else
+    /// The pigment library (JSON) [default: the one in IMPASTO_LIBRARY, else
     /// the Van Gogh oils that ship], then the pigment, whose name may be abbreviated
     #[arg(required = true, num_args = 1..=2, value_name = "[LIBRARY] PIGMENT")]
     words: Vec<String>,

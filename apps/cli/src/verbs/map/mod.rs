@@ -47,7 +47,7 @@ pub(crate) struct Map {
     /// The scan: ENVI (the .hdr or the data), a folder of a Specim camera, Zarr 3, spectral OpenEXR, or a
     /// folder of one picture a band
     scan: PathBuf,
-    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else the Van Gogh oils that ship]
+    /// The pigment library (JSON) [default: the one in IMPASTO_LIBRARY, else the Van Gogh oils that ship]
     library: Option<PathBuf>,
     /// The maps to write: a folder, such as maps.zarr; without it only the survey is printed
     #[arg(short, long, alias = "out", value_name = "FOLDER")]
