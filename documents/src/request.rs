@@ -272,13 +272,16 @@ mod tests {
     }
 
     fn either<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Inner, D::Error> {
-        let parse = |text: &str| {
-            let count = text.parse().map(|count| Inner { count });
-            count.map_err(|_| {
-                RequestError::value(format!("takes a count, found `{text}`"), "try [either=1]")
-            })
-        };
-        from_text_or_keys(deserializer, parse, |inner| inner)
+        from_text_or_keys(
+            deserializer,
+            |text| {
+                let count = text.parse().map(|count| Inner { count });
+                count.map_err(|_| {
+                    RequestError::value(format!("takes a count, found `{text}`"), "try [either=1]")
+                })
+            },
+            |inner| inner,
+        )
     }
 
     #[derive(Debug, PartialEq, Default, Deserialize)]
@@ -298,9 +301,9 @@ mod tests {
     fn pair<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 2], D::Error> {
         from_text(deserializer, |text| {
             let numbers: Vec<f64> = text.split(',').filter_map(|part| part.parse().ok()).collect();
-            let refused =
-                || RequestError::value(format!("takes A,B, found `{text}`"), "try [pair=1,2]");
-            numbers.try_into().map_err(|_| refused())
+            numbers.try_into().map_err(|_| {
+                RequestError::value(format!("takes A,B, found `{text}`"), "try [pair=1,2]")
+            })
         })
     }
 

@@ -118,7 +118,6 @@ enum WithDefaults {
 fn an_enum_has_defaults_and_a_wrapped_error_its_own() {
     let io = || std::io::Error::from(std::io::ErrorKind::StorageFull);
     let expression = || Plain::Expression { advice: None };
-    let file = || "a.csv".to_owned();
     for (error, wanted) in [
         (WithDefaults::ByDefault(3), (hint("look at a 3"), Fault::Setting)),
         (WithDefaults::Own, (hint("its own"), Fault::Input)),
@@ -128,10 +127,13 @@ fn an_enum_has_defaults_and_a_wrapped_error_its_own() {
         (WithDefaults::TransparentWithHint(io()), (hint("its own"), Fault::Environment)),
         (WithDefaults::Marked(1, Plain::Text), (hint("set `backend = cpu`"), Fault::Input)),
         (
-            WithDefaults::Named { file: file(), error: Box::new(Plain::Function) },
+            WithDefaults::Named { file: "a.csv".to_owned(), error: Box::new(Plain::Function) },
             (hint("function of g"), Fault::Environment),
         ),
-        (WithDefaults::Chosen { file: file(), reason: expression() }, (None, Fault::Environment)),
+        (
+            WithDefaults::Chosen { file: "a.csv".to_owned(), reason: expression() },
+            (None, Fault::Environment),
+        ),
         (
             WithDefaults::Chosen { file: String::new(), reason: expression() },
             (hint("name it"), Fault::Environment),

@@ -422,9 +422,9 @@ pub(crate) fn left_out_section(subject: &Subject<'_>) -> Section {
 
 /// Draws films with their error when left out. `pairs` is sorted by that error, largest first.
 fn left_out_figure(subject: &Subject<'_>, pairs: &[(&ComparedFilm, f64)]) -> Figure {
-    let errors = || pairs.iter().flat_map(|(film, left_out)| [film.delta_e, *left_out]);
-    let low = errors().fold(f64::INFINITY, f64::min);
-    let high = errors().fold(0.0, f64::max);
+    let errors = pairs.iter().flat_map(|(film, left_out)| [film.delta_e, *left_out]);
+    let low = errors.clone().fold(f64::INFINITY, f64::min);
+    let high = errors.fold(0.0, f64::max);
     let [x, y] = ["Colour error in the fit", "Colour error when left out"]
         .map(|what| Axis::log_close(what, "CIEDE2000", low.max(0.05), high));
     let mut data = Table::new([

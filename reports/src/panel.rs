@@ -274,8 +274,9 @@ impl Chart {
                 width,
                 height,
             };
-            let labels = |ticks: bool| if ticks { AxisLabels::Ticks } else { AxisLabels::None };
-            panel.labels = (labels(index + columns >= count), labels(column == 0));
+            let [x, y] = [index + columns >= count, column == 0]
+                .map(|ticks| if ticks { AxisLabels::Ticks } else { AxisLabels::None });
+            panel.labels = (x, y);
             panel
         });
         let panels = placed.collect();

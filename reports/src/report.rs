@@ -184,10 +184,13 @@ impl Report {
     pub fn files(&self) -> Vec<(String, Vec<u8>)> {
         let mut files = Vec::new();
         for (figure, picture) in self.figures().zip(&self.pictures) {
-            let path = |ending: &str| format!("figures/{}.{ending}", figure.name);
-            files.push((path("svg"), figure.svg.clone().into_bytes()));
-            files.push((path("png"), picture.clone()));
-            files.push((path("csv"), figure.data.csv().into_bytes()));
+            for (ending, bytes) in [
+                ("svg", figure.svg.clone().into_bytes()),
+                ("png", picture.clone()),
+                ("csv", figure.data.csv().into_bytes()),
+            ] {
+                files.push((format!("figures/{}.{ending}", figure.name), bytes));
+            }
         }
         let page = html(&self.head, &self.sections, &["svg", "png", "csv"]);
         files.push(("report.html".to_owned(), page.into_bytes()));

@@ -150,8 +150,7 @@ impl TimelapseOptions {
         let longest_px = self.timelapse_size;
         let with_undone = self.timelapse_undone;
         let settings = TimelapseSettings { interval, longest_px, with_undone };
-        let words = || "the timelapse";
-        settings.check().context(words)?;
+        settings.check().context(|| "the timelapse")?;
         let rate = FrameRate::new(self.timelapse_rate)
             .context(|| "--timelapse-rate takes another value")?;
         let animation = self.timelapse.as_deref();
@@ -159,7 +158,7 @@ impl TimelapseOptions {
         OutputFolder::open(&frames, inputs)?;
         let hold_seconds = self.timelapse_hold;
         let files = TimelapseFiles { animation, frames, keep_frames: true, rate, hold_seconds };
-        files.check().context(words)?;
+        files.check().context(|| "the timelapse")?;
         Ok(Some(OpenTimelapse { settings, files }))
     }
 }

@@ -106,11 +106,6 @@ pub(crate) fn command() -> Command {
 
 /// The verbs in their groups, each with the first line of its help.
 fn grouped(command: &Command) -> String {
-    let about = |name: &str| {
-        let help = (name == "help").then(|| "Print this message or the help of a verb".to_owned());
-        let found = command.find_subcommand(name).filter(|verb| !verb.is_hide_set());
-        found.map(|verb| verb.get_about().map(ToString::to_string).unwrap_or_default()).or(help)
-    };
     let named: Vec<&str> = GROUPS.iter().flat_map(|(_, names)| names.iter().copied()).collect();
     let others = command.get_subcommands().filter(|verb| !verb.is_hide_set());
     let others: Vec<&str> =
@@ -122,8 +117,14 @@ fn grouped(command: &Command) -> String {
     for (title, names) in groups.chain([("More", others)]).filter(|(_, names)| !names.is_empty()) {
         text += &format!("{title}:\n");
         for name in names {
-            text += &about(name)
-                .map_or_else(String::new, |about| format!("  {name:width$}  {about}\n"));
+            let help =
+                (name == "help").then(|| "Print this message or the help of a verb".to_owned());
+            let found = command.find_subcommand(name).filter(|verb| !verb.is_hide_set());
+            let about =
+                found.map(|verb| verb.get_about().map(ToString::to_string).unwrap_or_default());
+            if let Some(about) = about.or(help) {
+                text += &format!("  {name:width$}  {about}\n");
+            }
         }
         text.push('\n');
     }

@@ -29,8 +29,11 @@ impl Console<'_> {
             }
         }
         let lines = rows.iter().map(|row| {
-            let cell = |heading: &&str| row.iter().find(|(name, _)| name == heading);
-            headings.iter().map(|heading| cell(heading).map_or("", |(_, cell)| cell)).collect()
+            let cells = headings.iter().map(|heading| {
+                let cell = row.iter().find(|(name, _)| name == heading);
+                cell.map_or("", |(_, cell)| cell)
+            });
+            cells.collect()
         });
         let table = table(&headings, lines);
         let table = table.map_err(|error| Failure::usage(error.to_string(), "use --json"))?;

@@ -156,12 +156,11 @@ const LONG: usize = 20;
 
 /// Gives very long numbers of a message an exponent. For example, 1e300 written out has 301 digits.
 fn short_numbers(message: &str) -> String {
-    let is_part = |c: char| c.is_ascii_digit() || c == '.';
     let mut short = String::new();
     let mut rest = message;
     while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
         let (before, from) = rest.split_at(start);
-        let end = from.find(|c| !is_part(c)).unwrap_or(from.len());
+        let end = from.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(from.len());
         let number = from[..end].trim_end_matches('.');
         short += before;
         // Names may hold digits too, such as those of a hash.

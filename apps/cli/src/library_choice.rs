@@ -93,11 +93,9 @@ fn is_library(word: &str, may_be_file: bool) -> bool {
     if is_json || is_standard_input(path) {
         return true;
     }
-    let holds_json = || {
-        let bytes = std::fs::read(path).unwrap_or_default();
-        bytes.trim_ascii_start().starts_with(b"{")
-    };
-    is_there(path) && (!may_be_file || holds_json())
+    is_there(path)
+        && (!may_be_file
+            || std::fs::read(path).is_ok_and(|bytes| bytes.trim_ascii_start().starts_with(b"{")))
 }
 
 #[cfg(test)]

@@ -125,8 +125,8 @@ pub(crate) fn spectra(
 
 /// Warns of files that you name twice, since we then count their readings twice.
 pub(crate) fn remark_repeated(paths: &[PathBuf], console: &mut Console<'_>) -> Result<()> {
-    let whole = |path: &PathBuf| path.canonicalize().unwrap_or_else(|_| path.clone());
-    let all: Vec<PathBuf> = paths.iter().map(whole).collect();
+    let all: Vec<PathBuf> =
+        paths.iter().map(|path| path.canonicalize().unwrap_or_else(|_| path.clone())).collect();
     for (index, path) in paths.iter().enumerate() {
         if all[..index].contains(&all[index]) {
             console.warnings(&[format!("{}: this file is named twice", path.display())])?;

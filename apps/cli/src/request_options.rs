@@ -263,13 +263,16 @@ impl Key {
     /// Converts the texts of an option into the JSON value of its key. A text that is not a number
     /// stays a text, so that the request can refuse it.
     fn value(&self, texts: Vec<String>) -> Value {
-        let whole = |text: &String| text.parse::<u64>().ok().map(Value::from);
-        // JSON has no NaN and no infinity. As text they are refused.
-        let number = |text: &String| text.parse().ok().and_then(Number::from_f64).map(Value::from);
         match (&self.kind, &texts[..]) {
             (Kind::Flag, _) => Value::Bool(true),
-            (Kind::Whole(_), [text]) => whole(text).unwrap_or_else(|| json!(text)),
-            (Kind::Number, [text]) => number(text).unwrap_or_else(|| json!(text)),
+            (Kind::Whole(_), [text]) => {
+                text.parse::<u64>().map_or_else(|_| json!(text), Value::from)
+            }
+            (Kind::Number, [text]) => {
+                // JSON has no NaN and no infinity. As text they are refused.
+                let number = text.parse().ok().and_then(Number::from_f64);
+                number.map_or_else(|| json!(text), Value::from)
+            }
             (Kind::Words(_) | Kind::Text { .. }, [text]) => json!(text),
             _ => json!(texts),
         }

@@ -3,7 +3,6 @@
 
 use calibrate::{Backing, BackingTextError, backing_from_text};
 use clap::{Args, ValueEnum};
-use documents::request::RequestError;
 use spectra::optics::{Specular, Surface};
 use spectra::{Grid, GridError};
 
@@ -32,10 +31,9 @@ impl SurfaceOptions {
     /// Surface that you give by `--saunderson`, `None` if the option is absent.
     pub(crate) fn surface(&self) -> Result<Option<Surface>> {
         let surface = self.saunderson.as_deref().map(|text| {
-            let refused = |error: RequestError| {
+            let surface = text.parse::<Surface>().map_err(|error| {
                 Failure::of_request(&error.at("saunderson"), |key| format!("--{key}"))
-            };
-            let surface = text.parse::<Surface>().map_err(refused)?;
+            })?;
             Ok(match text {
                 "none" => surface,
                 _ => Surface { specular: self.specular(), ..surface },

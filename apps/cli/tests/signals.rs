@@ -74,10 +74,10 @@ fn a_signal_leaves_no_temporary_file_and_is_the_status() {
 fn a_run_that_ends_before_its_first_write_makes_no_folder() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
-    let measured = |name: &str| format!("{}/../../measurements/{name}", env!("CARGO_MANIFEST_DIR"));
+    let [library, samples] = ["van-gogh-oils.pigments.json", "van-gogh-oils.csv"]
+        .map(|name| format!("{}/../../measurements/{name}", env!("CARGO_MANIFEST_DIR")));
     let mut child = Command::new(env!("CARGO_BIN_EXE_impasto"))
-        .args(["report", &measured("van-gogh-oils.pigments.json")])
-        .args([&measured("van-gogh-oils.csv"), "-o", out.to_str().unwrap()])
+        .args(["report", &library, &samples, "-o", out.to_str().unwrap()])
         .stdout(Stdio::null())
         .stderr(Stdio::piped())
         .spawn()

@@ -90,10 +90,9 @@ fn a_bar_is_drawn_in_a_terminal_and_cleared_again() {
 #[test]
 fn a_spinner_is_drawn_in_a_terminal_and_cleared_again() {
     let folder = tempfile::tempdir().unwrap();
-    let place = |name: &str| folder.path().join(name).display().to_string();
     let model = format!(
         "impasto watercolor shape:still-life --width 2400 --backend cpu -o '{}'",
-        place("a.png")
+        folder.path().join("a.png").display()
     );
     let drawn = seen(&model);
     assert!(drawn.contains(" painting (") || drawn.contains(" preparing the model ("), "{drawn}");

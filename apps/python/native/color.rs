@@ -55,8 +55,8 @@ pub(crate) fn rgb<'py>(
             (*lab, *srgb) = (color.lab.to_array(), color.srgb.0);
         });
     });
-    let array = |values| PyArray1::from_vec(py, values).reshape([count, 3]);
-    Ok((array(lab)?, array(srgb)?))
+    let [lab, srgb] = [lab, srgb].map(|values| PyArray1::from_vec(py, values).reshape([count, 3]));
+    Ok((lab?, srgb?))
 }
 
 /// Colour difference of each row of two tables of CIELAB: CIEDE2000, or CIE 1976.

@@ -44,11 +44,10 @@ impl Exception {
         message: &str,
         hint: Option<&str>,
     ) -> PyErr {
-        let made = || {
-            let class = py.import("impasto.errors")?.getattr(self.name(fault))?;
-            class.call1((message, hint))
-        };
-        made().map_or_else(|error| error, PyErr::from_value)
+        let errors = py.import("impasto.errors");
+        let class = errors.and_then(|errors| errors.getattr(self.name(fault)));
+        let error = class.and_then(|class| class.call1((message, hint)));
+        error.map_or_else(|error| error, PyErr::from_value)
     }
 }
 

@@ -59,12 +59,12 @@ pub(crate) fn recipes_for(
     let options: MatchRequest = request_from_json(request).raised(py, Exception::Recipe)?;
     // Lights and ground may be spectra, which have no names that JSON could hold.
     let observer = Observer::named(observer).raised(py, Exception::Other)?;
-    let condition = |(light, weight): &(PyRef<'_, Light>, f64)| ViewingCondition {
+    let conditions = lights.iter().map(|(light, weight)| ViewingCondition {
         viewing: Viewing { illuminant: light.0.clone(), observer },
         weight: *weight,
-    };
+    });
     let options = MatchRequest {
-        conditions: lights.iter().map(condition).collect(),
+        conditions: conditions.collect(),
         over: over.as_ref().map(|ground| ground.backing(py)).transpose()?,
         ..options
     };

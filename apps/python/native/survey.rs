@@ -4,10 +4,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use calibrate::PigmentLibrary;
-use documents::Progress;
 use documents::request::request_from_json;
 use maps::blocks::RunError;
-use maps::store::Shard;
 use maps::{
     Book, Ground, GroundSource, MapError, MapRequest, MapRequestError, MapSettings, ModelError,
     StoreMode, SurveyError, SurveyedScan,
@@ -71,11 +69,15 @@ impl Survey {
         let book = book.map(|text| Book::from_json(&text)).transpose();
         let book = book.raised(py, Exception::Reading)?;
         let library = library.0.clone();
-        let text = |_: &Progress| "pixel".to_owned();
-        let surveyed = run_with(py, progress, text, move |task| match book {
-            Some(book) => SurveyedScan::with_book(cube, &library, &settings, region, book),
-            None => SurveyedScan::survey(cube, &library, &settings, region, task),
-        })?;
+        let surveyed = run_with(
+            py,
+            progress,
+            |_| "pixel".to_owned(),
+            move |task| match book {
+                Some(book) => SurveyedScan::with_book(cube, &library, &settings, region, book),
+                None => SurveyedScan::survey(cube, &library, &settings, region, task),
+            },
+        )?;
         surveyed.map(|scan| Self(Arc::new(scan))).raised(py, Exception::Fit)
     }
 
@@ -94,11 +96,12 @@ impl Survey {
     fn begin(&self, py: Python<'_>, path: PathBuf, resume: bool) -> PyResult<Vec<(String, usize)>> {
         let mode = if resume { StoreMode::Resume } else { StoreMode::New };
         let store = py.detach(|| self.0.store(path, mode)).raised(py, Exception::Other)?;
-        let left = |shard: &Shard| match store.is_finished(shard) {
-            true => 0,
-            false => shard.rows.len() * shard.columns.len(),
-        };
-        Ok(store.shards().iter().map(|shard| (shard.to_string(), left(shard))).collect())
+        let shards = store.shards().iter().map(|shard| {
+            let finished = store.is_finished(shard);
+            let left = if finished { 0 } else { shard.rows.len() * shard.columns.len() };
+            (shard.to_string(), left)
+        });
+        Ok(shards.collect())
     }
 
     /// Maps all shards of the maps at `path` that are not finished, on all cores.
@@ -111,8 +114,12 @@ impl Survey {
         let scan = Arc::clone(&self.0);
         let store = py.detach(|| scan.store(path, StoreMode::Resume));
         let store = store.raised(py, Exception::Other)?;
-        let text = |progress: &Progress| format!("{} of {} pixels", progress.done, progress.of);
-        let mapped = run_with(py, progress, text, move |task| scan.map(&store, task))?;
+        let mapped = run_with(
+            py,
+            progress,
+            |progress| format!("{} of {} pixels", progress.done, progress.of),
+            move |task| scan.map(&store, task),
+        )?;
         mapped.raised(py, Exception::Other).map(drop)
     }
 

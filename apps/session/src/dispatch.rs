@@ -463,7 +463,7 @@ fn rows(bounds: Rect, cell_mm: f64, place: Place) -> Vec<Rect> {
         return Vec::new();
     }
     let own = (x.floor(), y.floor());
-    let row = |row: usize| {
+    let rows = (0..bounds.height).map(|row| {
         let away = row as f64 + 0.5 - y;
         let half = (radius * radius - away * away).max(0.0).sqrt();
         let mut first = (x - half - 0.5).ceil();
@@ -479,8 +479,8 @@ fn rows(bounds: Rect, cell_mm: f64, place: Place) -> Vec<Rect> {
             return Rect::default();
         }
         Rect { x: first as usize, y: row, width: (last - first) as usize + 1, height: 1 }
-    };
-    (0..bounds.height).map(row).filter(|row| !row.is_empty()).collect()
+    });
+    rows.filter(|row| !row.is_empty()).collect()
 }
 
 /// The first of `places`, in mm, that has no wet paint in the square of half side `reach_mm` around
@@ -513,13 +513,12 @@ fn wet_paint_around(
 ) -> Result<Option<u64>, PaintingError> {
     let bounds = painting.bounds();
     let cell_mm = painting.cell_mm();
-    let span = |at_mm: f64, end: usize| {
+    let ends = [(x_mm, bounds.width), (y_mm, bounds.height)];
+    let [(x, right), (y, bottom)] = ends.map(|(at_mm, end)| {
         let first = ((at_mm - reach_mm) / cell_mm).floor().max(0.0) as usize;
         let last = ((at_mm + reach_mm) / cell_mm).ceil().clamp(0.0, end as f64) as usize;
         (first.min(end), last)
-    };
-    let (x, right) = span(x_mm, bounds.width);
-    let (y, bottom) = span(y_mm, bounds.height);
+    });
     let inside = (0.0..=bounds.width as f64 * cell_mm).contains(&x_mm)
         && (0.0..=bounds.height as f64 * cell_mm).contains(&y_mm);
     if !inside || right <= x || bottom <= y {

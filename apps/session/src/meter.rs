@@ -67,11 +67,12 @@ impl Meter {
 
     /// Performance of the last second while `behind` sub-steps wait.
     pub(super) fn performance(&mut self, now: Instant, behind: usize) -> Performance {
-        let old = |at: Instant| now.saturating_duration_since(at) > SPAN;
-        while self.slices.front().is_some_and(|(at, ..)| old(*at)) {
+        while self.slices.front().is_some_and(|(at, ..)| now.saturating_duration_since(*at) > SPAN)
+        {
             self.slices.pop_front();
         }
-        while self.samples.front().is_some_and(|(at, _)| old(*at)) {
+        while self.samples.front().is_some_and(|(at, _)| now.saturating_duration_since(*at) > SPAN)
+        {
             self.samples.pop_front();
         }
         let substeps: usize = self.slices.iter().map(|(_, substeps, _)| substeps).sum();

@@ -160,10 +160,10 @@ impl LayerSummary {
                 }
             }
         }
-        let mm = |quanta: f64| quanta * paint::amount::mm_from_quanta(1, cell_mm);
+        let mm_per_quantum = paint::amount::mm_from_quanta(1, cell_mm);
         Ok(Self {
-            mean_mm: mm(sum as f64 / painted.max(1) as f64),
-            max_mm: mm(f64::from(most)),
+            mean_mm: sum as f64 / painted.max(1) as f64 * mm_per_quantum,
+            max_mm: f64::from(most) * mm_per_quantum,
             coverage: painted as f64 / (bounds.width * bounds.height).max(1) as f64,
             cells,
         })
@@ -202,7 +202,7 @@ impl LayerSummary {
         let picture = scene::picture(&document, &scene);
         let width = columns / PROBES;
         let height = rows / PROBES;
-        let pixel = |index: usize| {
+        let pixels = (0..width * height).map(|index| {
             let x = index % width * PROBES;
             let y = index / width * PROBES;
             let probes = (0..PROBES * PROBES).map(|i| (x + i % PROBES, y + i / PROBES));
@@ -218,8 +218,8 @@ impl LayerSummary {
             let count = sum[3];
             let [r, g, b, _] = bytes.pixel(sum.map(|value| value / count.max(1.0)));
             [r, g, b, (255.0 * count / (PROBES * PROBES) as f32).round() as u8]
-        };
-        Thumbnail { width, height, pixels: (0..width * height).map(pixel).collect() }
+        });
+        Thumbnail { width, height, pixels: pixels.collect() }
     }
 }
 

@@ -56,8 +56,9 @@ pub(super) fn prepare(
             let script = continue_from(&canvas);
             let library = canvas.library.clone();
             let lighting = canvas.lighting.clone();
-            let surfaces = || Ok(script.surfaces_with_table(&library, Some(*canvas), None)?);
-            let surfaces = Surfaces::new(&library, &lighting, surfaces)?;
+            let surfaces = Surfaces::new(&library, &lighting, || {
+                Ok(script.surfaces_with_table(&library, Some(*canvas), None)?)
+            })?;
             surfaces.into_session(Beginning::Recorded(&script), backend, undo_bytes)
         }
         Origin::WithTable { canvas, table } if !table.palette.belongs_to(&canvas) => {
@@ -70,16 +71,16 @@ pub(super) fn prepare(
             let script = StrokeScript::continue_with_table(&path_of(&canvas), &canvas, &table);
             let library = canvas.library.clone();
             let lighting = canvas.lighting.clone();
-            let surfaces =
-                || Ok(script.surfaces_with_table(&library, Some(*canvas), Some(*table))?);
-            let surfaces = Surfaces::new(&library, &lighting, surfaces)?;
+            let surfaces = Surfaces::new(&library, &lighting, || {
+                Ok(script.surfaces_with_table(&library, Some(*canvas), Some(*table))?)
+            })?;
             surfaces.into_session(Beginning::Recorded(&script), backend, undo_bytes)
         }
         Origin::Recovered { canvas, palette, kept } => {
             let library = canvas.library.clone();
             let lighting = canvas.lighting.clone();
-            let surfaces = || Ok((*canvas, Some(*palette), Vec::new()));
-            let surfaces = Surfaces::new(&library, &lighting, surfaces)?;
+            let surfaces =
+                Surfaces::new(&library, &lighting, || Ok((*canvas, Some(*palette), Vec::new())))?;
             let kept = kept.unwrap_or_default();
             surfaces.into_session(Beginning::Kept(kept), backend, undo_bytes)
         }
@@ -108,8 +109,9 @@ pub(super) fn prepare_script(
         Some(start) => start.lighting.clone(),
         None => script.lighting.clone().unwrap_or_default(),
     };
-    let surfaces = || Ok(script.surfaces_with_table(&library, start, table)?);
-    let surfaces = Surfaces::new(&library, &lighting, surfaces)?;
+    let surfaces = Surfaces::new(&library, &lighting, || {
+        Ok(script.surfaces_with_table(&library, start, table)?)
+    })?;
     surfaces.into_session(Beginning::Recorded(&script), backend, undo_bytes)
 }
 

@@ -391,7 +391,7 @@ impl Layers {
         self.update(painting);
         let light = painting.light();
         let layers = self.entries.iter_mut().zip(&painting.state().dry);
-        let state = |(entry, dry): (&mut LayerEntry, &DryLayerState)| {
+        let states = layers.map(|(entry, dry)| {
             let Some(summary) = &entry.summary else { return blank(dry) };
             if let Some((sent, under)) = &mut entry.sent
                 && (sent.slots, sent.opacity) == (dry.slots, dry.opacity)
@@ -404,8 +404,8 @@ impl Layers {
             let state = summary.state(dry, painting, bytes);
             entry.sent = Some((state.clone(), Arc::clone(light)));
             state
-        };
-        layers.map(state).collect()
+        });
+        states.collect()
     }
 }
 
@@ -488,13 +488,13 @@ impl Colors {
         let thickness = pigment_mm * setting.scattering_per_mm;
         let over = |backing: &[f64]| mixture.film(thickness, backing, self.library.film());
         let [black, white] = [over(&cards.black), over(&cards.white)];
-        let luminance = |reflectance: &[f64]| self.weights.xyz(reflectance).y;
+        let [dark, light] = [&black, &white].map(|film| self.weights.xyz(film).y);
         Some(BrushSwatch {
             opaque: self.film_color(&mixture.hiding(self.library.saunderson)),
             ground: self.film_color(&setting.ground),
             over_ground: self.film_color(&over(&setting.ground)),
             cards: [&cards.black, &cards.white].map(|card| self.film_color(card)),
-            contrast: luminance(&black) / luminance(&white).max(f64::MIN_POSITIVE),
+            contrast: dark / light.max(f64::MIN_POSITIVE),
             over_cards: [black, white].map(|film| self.film_color(&film)),
             thickness_mm: heights_mm.iter().sum(),
         })

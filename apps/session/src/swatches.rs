@@ -293,15 +293,15 @@ impl SwatchBook {
 
     /// `name`, or `name 2` and so on if a mixture at another index than `own` has it.
     fn free_name(&self, name: &str, own: Option<usize>) -> String {
-        let taken = |name: &str| {
-            let mut others = self.swatches.iter().enumerate();
-            others.any(|(index, kept)| Some(index) != own && kept.name == name)
-        };
         let short: String = name.chars().take(LONGEST_NAME).collect();
         let stem: String = name.chars().take(LONGEST_NAME - 6).collect();
         let numbered = (2..=self.swatches.len() + 1).map(|number| format!("{stem} {number}"));
         let mut names = std::iter::once(short.clone()).chain(numbered);
-        names.find(|name| !taken(name)).unwrap_or(short)
+        let free = names.find(|name| {
+            let mut others = self.swatches.iter().enumerate();
+            !others.any(|(index, kept)| Some(index) != own && kept.name == *name)
+        });
+        free.unwrap_or(short)
     }
 }
 
@@ -327,19 +327,22 @@ impl SwatchBook {
     /// # Errors
     /// [`SwatchBookError`] naming the file and the key.
     pub fn from_json(file: &str, text: &str) -> Result<Self, SwatchBookError> {
-        let named = || file.to_owned();
         let read: Map<String, Value> = serde_json::from_str(text)
-            .map_err(|source| SwatchBookError::Json { file: named(), source })?;
+            .map_err(|source| SwatchBookError::Json { file: file.to_owned(), source })?;
         let found = |key: &str| read.get(key).cloned().unwrap_or(Value::Null);
         for (key, expected) in [("format", json!(FORMAT)), ("version", json!(VERSION))] {
             if found(key) != expected {
                 let expected = expected.to_string();
                 let found = found(key).to_string();
-                return Err(SwatchBookError::Kind { file: named(), key, expected, found });
+                let file = file.to_owned();
+                return Err(SwatchBookError::Kind { file, key, expected, found });
             }
         }
-        let fault =
-            |key: String, reason: String| SwatchBookError::Value { file: named(), key, reason };
+        let fault = |key: String, reason: String| SwatchBookError::Value {
+            file: file.to_owned(),
+            key,
+            reason,
+        };
         let Value::Array(listed) = found("swatches") else {
             let reason = format!("expected a list, found `{}`", found("swatches"));
             return Err(fault("swatches".to_owned(), reason));

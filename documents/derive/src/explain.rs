@@ -161,8 +161,8 @@ impl<'a> Variant<'a> {
                 .ok_or_else(|| Error::new(field.span(), "there is no such field"));
         }
         let marked = self.fields.iter().position(|field| {
-            let is = |name: &str| field.attrs.iter().any(|one| one.path().is_ident(name));
-            is("from") || is("source")
+            let mut attributes = field.attrs.iter();
+            attributes.any(|one| one.path().is_ident("from") || one.path().is_ident("source"))
         });
         let found = marked
             .or_else(|| named(&|name| name == "source").or_else(|| named(&|name| name == "error")))

@@ -60,13 +60,12 @@ impl Output {
         if target.exists() && !target.is_file() {
             return Err(OutputError::NotAFile(path.to_owned()));
         }
-        let is_target = |input: &PathBuf| {
+        for input in inputs {
             let text = input.to_str();
             let file = text.map_or(input.as_path(), |text| Path::new(split_file_and_sheet(text).0));
-            file.canonicalize().is_ok_and(|input| input == target)
-        };
-        if inputs.iter().any(is_target) {
-            return Err(OutputError::Input(path.to_owned()));
+            if file.canonicalize().is_ok_and(|input| input == target) {
+                return Err(OutputError::Input(path.to_owned()));
+            }
         }
         check_writable(path)?;
         Ok(Self { path: path.to_owned(), target })
@@ -219,8 +218,8 @@ impl OutputFolder {
 /// # Errors
 /// [`OutputError::Folder`] if it cannot be made.
 pub fn create_folder(folder: &Path) -> Result<(), OutputError> {
-    let words = || cannot_be_created(folder);
-    std::fs::create_dir_all(folder).map_err(|reason| OutputError::Folder { words: words(), reason })
+    std::fs::create_dir_all(folder)
+        .map_err(|reason| OutputError::Folder { words: cannot_be_created(folder), reason })
 }
 
 fn cannot_be_created(folder: &Path) -> String {

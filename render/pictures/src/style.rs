@@ -115,22 +115,21 @@ pub fn listed<'t>(
     library: &PigmentLibrary,
     name_of: fn(&str) -> &str,
 ) -> Vec<&'t str> {
-    let is_name = |part: &str| {
-        let name = name_of(part).trim().to_lowercase();
-        library.pigments.iter().any(|pigment| pigment.name.to_lowercase() == name)
-    };
-    let closed = |part: &str| part.matches('(').count() <= part.matches(')').count();
     let commas = list.match_indices(',').map(|(at, _)| at);
     let ends: Vec<usize> = commas.chain([list.len()]).collect();
     let mut parts = Vec::new();
     let mut from = 0;
     while from <= list.len() {
         let ahead = || ends.iter().copied().filter(|end| *end >= from);
-        let longest = ahead().rev().find(|end| is_name(&list[from..*end]));
-        let end = longest
-            .or_else(|| ahead().find(|end| closed(&list[from..*end])))
-            .or_else(|| ahead().next())
-            .unwrap_or(list.len());
+        let longest = ahead().rev().find(|end| {
+            let name = name_of(&list[from..*end]).trim().to_lowercase();
+            library.pigments.iter().any(|pigment| pigment.name.to_lowercase() == name)
+        });
+        let closed = ahead().find(|end| {
+            let part = &list[from..*end];
+            part.matches('(').count() <= part.matches(')').count()
+        });
+        let end = longest.or(closed).or_else(|| ahead().next()).unwrap_or(list.len());
         parts.push(list[from..end].trim());
         from = end + 1;
     }

@@ -157,8 +157,10 @@ impl ViewRequest {
     /// # Errors
     /// [`SettingError`] if a turntable moves the camera too.
     pub fn camera_file(&self) -> Result<Option<&Path>, SettingError> {
-        let is_file = |text: &&str| text.ends_with(".toml") || is_standard_input(Path::new(text));
-        let text = self.camera.as_deref().filter(is_file);
+        let text = self
+            .camera
+            .as_deref()
+            .filter(|text| text.ends_with(".toml") || is_standard_input(Path::new(text)));
         let Some(path) = text.map(Path::new) else { return Ok(None) };
         match self.turntable {
             None => Ok(Some(path)),

@@ -96,12 +96,10 @@ pub fn pits(heights: &Heights, inside: impl Fn(usize, usize) -> bool) -> f64 {
 /// Mean CIEDE2000 of colours from their mean.
 #[must_use]
 pub fn color_spread(colors: &[Lab]) -> f64 {
-    let middle = |part: fn(&Lab) -> f64| mean(&colors.iter().map(part).collect::<Vec<_>>());
-    let center = Lab {
-        lightness: middle(|lab| lab.lightness),
-        a: middle(|lab| lab.a),
-        b: middle(|lab| lab.b),
-    };
+    let [lightness, a, b] = [0, 1, 2].map(|part: usize| {
+        mean(&colors.iter().map(|lab| lab.to_array()[part]).collect::<Vec<_>>())
+    });
+    let center = Lab { lightness, a, b };
     mean(&colors.iter().map(|&lab| delta_e_ciede2000(center, lab)).collect::<Vec<_>>())
 }
 

@@ -175,14 +175,13 @@ fn pigments_always_mixed_alike_lower_the_rank() {
             Observation { shares, ..o.clone() }
         })
         .collect();
-    let rank = |observations: &[Observation]| {
+    let ranks = [&made.observations, &tied].map(|observations| {
         let problem = Problem::new(made.grid, made.surface, observations, PigmentId(0)).unwrap();
         condition(&problem, &made.curves).rank
-    };
-    assert_eq!(rank(&made.observations), 21);
+    });
     // The mixtures determine only the sum of the two K and of the two S, so there are two unknowns
     // fewer.
-    assert_eq!(rank(&tied), 19);
+    assert_eq!(ranks, [21, 19]);
 }
 
 #[test]
@@ -291,19 +290,13 @@ fn unseen_mixtures_of_uneven_washes_are_predicted_within_two() {
 
 #[test]
 fn amounts_in_another_unit_change_only_the_unit_of_k_and_s() {
+    fn fit(set: &SwatchSet) -> PigmentLibrary {
+        let settings = FitSettings::default();
+        let viewing = Viewing::default();
+        calibrate_absolute(set, EVEN, &settings, &viewing, &Task::default()).unwrap().library
+    }
     let made = Watercolors::exact();
     let mut set = made.swatches();
-    let fit = |set: &SwatchSet| {
-        calibrate_absolute(
-            set,
-            EVEN,
-            &FitSettings::default(),
-            &Viewing::default(),
-            &Task::default(),
-        )
-        .unwrap()
-        .library
-    };
     let millilitres = fit(&set);
     set.swatches.iter_mut().flat_map(|s| &mut s.amounts).for_each(|amount| *amount *= 1000.0);
     let microlitres = fit(&set);
@@ -374,11 +367,10 @@ fn thin_films_that_tell_little_of_scattering_are_told() {
             .unwrap();
     let library = library.library;
     let warnings = &library.evidence.as_ref().unwrap().warnings;
-    let said = |name: &str| {
+    let told = ["chinese white", "cadmium red"].map(|name| {
         warnings.iter().any(|w| w.starts_with(&format!("{name}: these films tell little")))
-    };
-    assert!(said("chinese white"), "{warnings:?}");
-    assert!(!said("cadmium red"), "{warnings:?}");
+    });
+    assert_eq!(told, [true, false], "{warnings:?}");
     assert!(!library.pigments[white].notes.is_empty(), "the pigment carries the note");
 }
 
@@ -505,11 +497,12 @@ fn films_whose_readings_deny_that_they_hide_are_told_apart() {
         "sample,backing,W,400\na,white,1,0.5\na,black,1,0.3\nb,white,1,0.5\nb,black,1,0.49\n";
     let set = SwatchSet::from_table(&table(text)).unwrap();
     let observed = observations(&set, Surface::NONE, BelowSurface::Refuse).unwrap();
-    let difference = |index: usize| match observed[index].hiding {
-        Hiding::Assumed(Some(difference)) => difference,
-        other => panic!("{other:?}"),
-    };
-    assert!((difference(0) - 0.2).abs() < 1e-12 && (difference(1) - 0.01).abs() < 1e-12);
+    for (observation, wanted) in observed.iter().zip([0.2, 0.01]) {
+        match observation.hiding {
+            Hiding::Assumed(Some(difference)) => assert!((difference - wanted).abs() < 1e-12),
+            other => panic!("{other:?}"),
+        }
+    }
 }
 
 #[test]

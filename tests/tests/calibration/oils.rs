@@ -70,9 +70,10 @@ fn unseen_mixtures_with_white_or_black_meet_their_figures() {
     // Over a third of the error is strength, and most of the mixtures are with white.
     let free = found.strength_free.unwrap();
     assert!(free.mean < 0.65 * error.mean && free.mean > 0.3 * error.mean, "{free:?} {error:?}");
-    let part = |name: &str| found.by_pigment.iter().find(|p| p.pigment == name).unwrap();
-    assert_eq!(part("Zinc White").mixtures + part("Bone Black").mixtures, 52);
-    assert!((part("Zinc White").share + part("Bone Black").share - 1.0).abs() < 1e-9);
+    let [white, black] = ["Zinc White", "Bone Black"]
+        .map(|name| found.by_pigment.iter().find(|p| p.pigment == name).unwrap());
+    assert_eq!(white.mixtures + black.mixtures, 52);
+    assert!((white.share + black.share - 1.0).abs() < 1e-9);
     assert!(found.by_pigment.is_sorted_by(|a, b| a.share >= b.share), "{:?}", found.by_pigment);
     let shares = calibrate::shares_of_squares(&found.per_sample);
     assert!((shares.iter().map(|(_, share)| share).sum::<f64>() - 1.0).abs() < 1e-9);

@@ -26,10 +26,9 @@ impl Film {
     /// tenth S. Otherwise they are 0.001 to 100 on a logarithmic scale.
     fn random(seed: u64) -> Self {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        let mut coefficient =
-            || if rng.random_bool(0.1) { 0.0 } else { 10f64.powf(rng.random_range(-3.0..2.0)) };
-        let absorption = coefficient();
-        let scattering = coefficient();
+        let [absorption, scattering] = [(); 2].map(|()| {
+            if rng.random_bool(0.1) { 0.0 } else { 10f64.powf(rng.random_range(-3.0..2.0)) }
+        });
         let thickness = 10f64.powf(rng.random_range(-2.0..1.0));
         Self { seed, absorption, scattering, thickness, backing: rng.random_range(0.0..=1.0) }
     }

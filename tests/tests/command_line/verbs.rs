@@ -178,6 +178,14 @@ fn color_tells_differences_and_metamerism() {
     assert!(list[0].get("metamerism").is_none(), "the first light is the reference");
 }
 
+/// Prints the colours of a file. No line may be wider than 100 columns.
+fn color_table(file: &str, options: &[&str]) -> String {
+    let run = impasto(&[&["color", file], options].concat());
+    assert_eq!(run.status, 0, "{}", run.err);
+    assert!(run.out.lines().all(|line| line.chars().count() <= 100), "{}", run.out);
+    run.out
+}
+
 #[test]
 fn color_shows_the_columns_that_are_asked_for_within_100() {
     let folder = tempfile::tempdir().unwrap();
@@ -186,22 +194,16 @@ fn color_shows_the_columns_that_are_asked_for_within_100() {
     let text = format!("sample,400,450,500,550,600,650,700\n{paper}\nochre,.1,.1,.2,.4,.5,.5,.5\n");
     std::fs::write(&path, text).unwrap();
     let file = path.to_str().unwrap();
-    let table = |more: &[&str]| {
-        let run = impasto(&[&["color", file], more].concat());
-        assert_eq!(run.status, 0, "{}", run.err);
-        assert!(run.out.lines().all(|line| line.chars().count() <= 100), "{}", run.out);
-        run.out
-    };
-    let usual = table(&[]);
+    let usual = color_table(file, &[]);
     assert!(usual.contains("X       Y       Z") && !usual.contains("C*"), "{usual}");
-    let chosen = table(&["--show", "xyy,lch,whiteness"]);
+    let chosen = color_table(file, &["--show", "xyy,lch,whiteness"]);
     for words in ["x       y       Y", "L*      C*       h", "W       T", "-4 < T < 2"] {
         assert!(chosen.contains(words), "{words}: {chosen}");
     }
     let [ochre, paper] =
         ["ochre", "paper"].map(|name| chosen.lines().find(|line| line.starts_with(name)).unwrap());
     assert!(ochre.contains("not white") && !paper.contains("not white"), "{chosen}");
-    let lamp = table(&["--show", "whiteness", "--illuminant", "A"]);
+    let lamp = color_table(file, &["--show", "whiteness", "--illuminant", "A"]);
     assert!(lamp.contains("not under A") && !lamp.contains("not white"), "{lamp}");
     let list = json(&["color", file, "--json"]);
     let paper = &list[0];
@@ -246,16 +248,11 @@ fn a_comparison_keeps_within_100_columns_and_cuts_no_name() {
     );
     std::fs::write(&path, text).unwrap();
     let file = path.to_str().unwrap();
-    let table = |more: &[&str]| {
-        let run = impasto(&[&["color", file, "--compare", "ochre"], more].concat());
-        assert_eq!(run.status, 0, "{}", run.err);
-        assert!(run.out.lines().all(|line| line.chars().count() <= 100), "{}", run.out);
-        run.out
-    };
-    let short = table(&["--sample", "blue"]);
+    let short = color_table(file, &["--compare", "ochre", "--sample", "blue"]);
     let heading = short.lines().nth(1).unwrap();
     assert!(heading.contains("b*  CIEDE2000") && heading.ends_with("display"), "{short}");
-    let named = table(&["--illuminant", "D65", "--illuminant", "A"]);
+    let lights = ["--compare", "ochre", "--illuminant", "D65", "--illuminant", "A"];
+    let named = color_table(file, &lights);
     assert_eq!(named.lines().filter(|line| *line == long).count(), 4, "{named}");
     // Each of the two lights has its colours and, below them, the differences.
     let headings: Vec<&str> = named.lines().filter(|line| line.starts_with("sample")).collect();

@@ -134,8 +134,9 @@ fn painted(rng: &mut ChaCha8Rng, size: usize) -> Layer {
 }
 
 fn any_layer(rng: &mut ChaCha8Rng) -> LayerOptics {
-    let mut any = || std::array::from_fn(|_| std::array::from_fn(|_| rng.random_range(0.0..4e-6)));
-    LayerOptics { absorption: any(), scattering: any() }
+    let [absorption, scattering] = [(); 2]
+        .map(|()| std::array::from_fn(|_| std::array::from_fn(|_| rng.random_range(0.0..4e-6))));
+    LayerOptics { absorption, scattering }
 }
 
 #[test]

@@ -143,11 +143,15 @@ fn the_ground_of_a_furrow_is_darker_than_the_ridge_beside_it() {
     for along in [0.0, 0.5, 1.0] {
         // Furrows 6 cells apart and half a cell deep. `up` is 1 at a ridge.
         let [ridge, ground] = [1.0, -1.0].map(|up| {
-            let wave = move |x: f64, y: f64| {
-                let across = x * (1.0 - along) + y * along;
-                up * 0.25 * (across * std::f64::consts::PI / 3.0).cos()
-            };
-            lit_in(&soft, wave, Ground) / level
+            let lit = lit_in(
+                &soft,
+                |x, y| {
+                    let across = x * (1.0 - along) + y * along;
+                    up * 0.25 * (across * std::f64::consts::PI / 3.0).cos()
+                },
+                Ground,
+            );
+            lit / level
         });
         assert!(ridge > 0.999 && ground < 0.996, "along {along}: {ridge} {ground}");
     }
@@ -157,7 +161,6 @@ fn the_ground_of_a_furrow_is_darker_than_the_ridge_beside_it() {
 fn no_relief_makes_paint_lighter_than_white() {
     let mut random = ChaCha8Rng::seed_from_u64(5);
     let heights: Vec<f64> = (0..SIDE * SIDE).map(|_| random.random_range(0.0..2.0)).collect();
-    let at = |x: f64, y: f64| heights[(y as usize + MIDDLE) % SIDE * SIDE + x as usize % SIDE];
     for elevation_deg in [1.0, 20.0, 50.0] {
         for ambient in [0.0, 0.5] {
             let lighting = Lighting { elevation_deg, ambient, relief: 10.0, ..Lighting::default() };
@@ -165,11 +168,15 @@ fn no_relief_makes_paint_lighter_than_white() {
             scene.lamp.wet = Gloss { strength: 100.0, exponent: 8.0 };
             let mut lightest = 0.0f32;
             for shift in 0..200 {
-                lightest = lightest.max(lit_in(
+                let lit = lit_in(
                     &scene,
-                    |x: f64, y: f64| at(x + 100.0 + f64::from(shift), y),
+                    |x, y| {
+                        let column = (x + 100.0 + f64::from(shift)) as usize % SIDE;
+                        heights[(y as usize + MIDDLE) % SIDE * SIDE + column]
+                    },
                     Wet,
-                ));
+                );
+                lightest = lightest.max(lit);
             }
             let level = lit(&scene, (0.0, 0.0), Wet);
             assert!(lightest > 1.1 * level && lightest < 1.0, "{level} {lightest}");
@@ -186,8 +193,7 @@ fn a_height_matters_as_far_as_it_says() {
         let level = lit(&scene, (0.0, 0.0), Wet);
         let far = cells as f64;
         let [out_of_reach, within] = [far + 1.0, far].map(|distance| {
-            let spot = |x: f64, y: f64| if x.abs().max(y.abs()) >= distance { 3.0 } else { 0.0 };
-            lit_in(&scene, spot, Wet)
+            lit_in(&scene, |x, y| if x.abs().max(y.abs()) >= distance { 3.0 } else { 0.0 }, Wet)
         });
         assert_eq!(out_of_reach, level, "{cell_mm}");
         assert!(within < level, "{cell_mm}");

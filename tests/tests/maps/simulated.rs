@@ -253,9 +253,10 @@ fn what_cannot_be_simulated_or_compared_is_told() {
         0
     );
     assert_eq!(simulate(&painting, &scan, &[]).status, 0);
-    let path = |name: &str| folder.path().join(name).display().to_string();
     let maps = |truth: &str, out: &str| {
-        impasto(&["map", &path("scan.hdr"), "-o", &path(out), "--truth", &path(truth)])
+        let [scan, out, truth] =
+            ["scan.hdr", out, truth].map(|name| folder.path().join(name).display().to_string());
+        impasto(&["map", &scan, "-o", &out, "--truth", &truth])
     };
     let run = maps("small/scan-truth.zarr", "maps-1");
     assert!(run.status == 2 && run.err.contains("4 x 4"), "{}", run.err);

@@ -60,19 +60,20 @@ fn colors(library: &PigmentLibrary, pigments: &[PigmentId]) -> Vec<Lab> {
     colors
 }
 
+/// Random colour with L*, a* and b* in these ranges.
+fn random_lab(random: &mut ChaCha8Rng, ranges: [(f64, f64); 3]) -> Lab {
+    let [lightness, a, b] =
+        ranges.map(|(least, most)| least + (most - least) * random.random::<f64>());
+    Lab { lightness, a, b }
+}
+
 /// Target colours. Half are random points in CIELAB, half are random mixtures.
 fn targets(library: &PigmentLibrary, pigments: &[PigmentId], count: usize) -> Vec<Lab> {
     let mut random = ChaCha8Rng::seed_from_u64(2004);
     let weights = conditions(&["D65"])[0].viewing.weights(library.grid).unwrap();
     let targets = (0..count).map(|number| {
         if number.is_multiple_of(2) {
-            let mut within =
-                |least: f64, most: f64| least + (most - least) * random.random::<f64>();
-            return Lab {
-                lightness: within(5.0, 95.0),
-                a: within(-60.0, 60.0),
-                b: within(-60.0, 80.0),
-            };
+            return random_lab(&mut random, [(5.0, 95.0), (-60.0, 60.0), (-60.0, 80.0)]);
         }
         let parts: Recipe = (0..random.random_range(2..6))
             .map(|_| (pigments[random.random_range(0..pigments.len())], random.random()))
@@ -280,14 +281,8 @@ fn two(first: Option<f64>, second: Option<f64>) -> Vec<RequiredPigment> {
 
 fn colors_within_limits() -> Vec<Lab> {
     let mut random = ChaCha8Rng::seed_from_u64(5);
-    let mut within = |least: f64, most: f64| least + (most - least) * random.random::<f64>();
-    (0..12)
-        .map(|_| Lab {
-            lightness: within(20.0, 90.0),
-            a: within(-40.0, 50.0),
-            b: within(-50.0, 60.0),
-        })
-        .collect()
+    let ranges = [(20.0, 90.0), (-40.0, 50.0), (-50.0, 60.0)];
+    (0..12).map(|_| random_lab(&mut random, ranges)).collect()
 }
 
 #[test]

@@ -8,7 +8,6 @@ mod spectrum;
 use calibrate::evaluate::{Viewing, lab};
 use calibrate::library::PigmentLibrary;
 use calibrate::matching::{Target, ViewingCondition};
-use spectra::color::Lab;
 use spectra::{Illuminant, Observer};
 use suite::oils::library as oils;
 
@@ -31,9 +30,9 @@ fn target_of(
     reflectance: &[f64],
     conditions: &[ViewingCondition],
 ) -> Target {
-    let color = |condition: &ViewingCondition| -> Lab {
-        lab(&condition.viewing.weights(library.grid).unwrap(), reflectance)
-    };
-    let lab = conditions.iter().map(color).collect();
+    let colors = conditions
+        .iter()
+        .map(|condition| lab(&condition.viewing.weights(library.grid).unwrap(), reflectance));
+    let lab = colors.collect();
     Target { name: "a mixture".to_owned(), lab, spectrum: None }
 }

@@ -180,11 +180,11 @@ fn the_tolerance_is_in_percent_of_reflectance() {
     let search = library.recipe_search(&options).unwrap();
     assert_eq!((search.limits.tolerance, search.tolerance_origin), (0.2, ToleranceOrigin::Usual));
     let target = measured(&library, &[("Zinc White", 0.5), ("Minium", 0.3), ("Viridian", 0.2)]);
-    let plain = |tolerance: f64| {
+    let counts = [0.0, 20.0].map(|tolerance| {
         let options = MatchRequest { tolerance: Some(tolerance), ..options.clone() };
         options.run(&library, &target, &Task::default()).unwrap().recipes[0].shares.len()
-    };
-    assert!(plain(0.0) == 3 && plain(20.0) == 1, "{} {}", plain(0.0), plain(20.0));
+    });
+    assert_eq!(counts, [3, 1]);
 }
 
 fn target(limits: &RecipeLimits) -> Target {

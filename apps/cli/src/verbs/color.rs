@@ -141,9 +141,10 @@ impl Color {
             columns: self.show,
         };
         if self.json || self.csv {
-            let lights = || 0..table.lights.len();
-            let rows = selected.iter().flat_map(|row| lights().map(move |light| (row, light)));
-            let list: Vec<Value> = rows.map(|(row, light)| table.entry(row, light)).collect();
+            let mut list: Vec<Value> = Vec::new();
+            for row in &selected {
+                list.extend((0..table.lights.len()).map(|light| table.entry(row, light)));
+            }
             return match self.csv {
                 true => console.csv_rows(&list),
                 false => console.json(&Value::from(list)),
@@ -373,8 +374,8 @@ impl ColorTable {
     }
 
     fn change_to(&self, light: usize) -> IlluminantChange<'_> {
-        let name = |at: usize| self.lights[at].illuminant.name();
-        IlluminantChange { reference: name(0), test: name(light) }
+        let [reference, test] = [0, light].map(|at: usize| self.lights[at].illuminant.name());
+        IlluminantChange { reference, test }
     }
 
     fn change_heading(&self, light: usize) -> String {
@@ -383,8 +384,9 @@ impl ColorTable {
 
     /// Metamerism index of `row` against the standard for the change from the first light to `light`.
     fn metamerism(&self, standard: &Row, row: &Row, light: usize) -> Option<f64> {
-        let pair = |row: &Row| [row.colors[0].xyz, row.colors[light].xyz];
-        metamerism_index(pair(standard), pair(row), self.whites[light]).ok()
+        let [standard, row] =
+            [standard, row].map(|row: &Row| [row.colors[0].xyz, row.colors[light].xyz]);
+        metamerism_index(standard, row, self.whites[light]).ok()
     }
 
     fn whiteness(&self, xyz: Xyz, light: usize) -> std::result::Result<Whiteness, WhitenessError> {

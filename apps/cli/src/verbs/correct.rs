@@ -1,10 +1,7 @@
 //! `impasto correct`: what to add to a pot of paint that came out beside its target.
 
-use calibrate::PigmentId;
 use calibrate::library::PigmentLibrary;
-use calibrate::matching::{
-    Batch, ColorTarget, CorrectRequest, Correction, Corrections, Metric, TargetColor,
-};
+use calibrate::matching::{Batch, ColorTarget, CorrectRequest, Corrections, Metric, TargetColor};
 use clap::{Arg, Args};
 use documents::{Task, counted, name_list};
 use serde_json::{Map, Value, json};
@@ -141,7 +138,7 @@ fn one(text: &str, what: &str, colors: Vec<ColorTarget>) -> Result<ColorTarget> 
 
 /// Parses amounts of the form `PIGMENT=GRAMS`.
 fn amounts(option: &str, texts: &[String]) -> Result<Vec<(String, f64)>> {
-    let amount = |text: &String| {
+    let amounts = texts.iter().map(|text| {
         let found = text.rsplit_once('=').and_then(|(name, grams)| {
             let grams: f64 = grams.trim().parse().ok().filter(|g| (0.0..1e9).contains(g))?;
             Some((name.trim().to_owned(), grams))
@@ -152,8 +149,8 @@ fn amounts(option: &str, texts: &[String]) -> Result<Vec<(String, f64)>> {
                 format!("try {option} \"Cobalt Blue=20\""),
             )
         })
-    };
-    texts.iter().map(amount).collect()
+    });
+    amounts.collect()
 }
 
 /// Names and settings that all corrections of a run share.
@@ -179,11 +176,11 @@ impl Report<'_> {
             let white = spectra::color::RgbSpace::Srgb.white();
             srgb(lab.to_xyz(white), white)
         };
-        let line = |name: &str, lab: Lab, console: &Console<'_>| {
+        let colors = [("target", found.target.lab[0]), ("batch", found.batch[0])];
+        let [target, batch] = colors.map(|(name, lab)| {
             format!("{name:8} {}  Lab {}", console.srgb(color(lab)), csv_rows::lab(lab))
-        };
-        console.line(line("target", found.target.lab[0], console))?;
-        let batch = line("batch", found.batch[0], console);
+        });
+        console.line(target)?;
         console.line(format!("{batch}  {} g", shown(self.grams)))?;
         let off = self.under(&found.batch_delta_e);
         console.line(format!("CIEDE2000 of the batch from the target: {off}"))?;
@@ -226,7 +223,7 @@ impl Report<'_> {
     }
 
     fn json(&self, found: &Corrections) -> Value {
-        let correction = |correction: &Correction| {
+        let corrections = found.corrections.iter().map(|correction| {
             let additions = correction.additions.iter().map(|(id, grams)| {
                 let all = correction.out_of_stock.contains(id);
                 json!({ "name": self.library[*id].name, "grams": grams, "all_in_stock": all })
@@ -234,50 +231,53 @@ impl Report<'_> {
             json!({
                 "grams": correction.grams,
                 "additions": additions.collect::<Vec<Value>>(),
-                "delta_e": self.by_light(correction.delta_e.iter().map(|d| json!(d))),
+                "delta_e": self.differences(&correction.delta_e),
                 "distance": correction.distance,
                 "rms_percent": correction.rms_percent,
-                "lab": self.by_light(correction.lab.iter().map(|lab| json!(lab.to_array()))),
+                "lab": self.lab(&correction.lab),
                 "wavelengths_nm": self.library.grid.wavelengths_nm().collect::<Vec<f64>>(),
                 "reflectance": correction.reflectance,
             })
-        };
-        let lab = |labs: &[Lab]| self.by_light(labs.iter().map(|lab| json!(lab.to_array())));
-        let differences = |found: &[f64]| self.by_light(found.iter().map(|d| json!(d)));
+        });
         json!({
             "target": found.target.name,
-            "target_lab": lab(&found.target.lab),
-            "batch_lab": lab(&found.batch),
+            "target_lab": self.lab(&found.target.lab),
+            "batch_lab": self.lab(&found.batch),
             "batch_grams": self.grams,
-            "batch_delta_e": differences(&found.batch_delta_e),
-            "recipe_delta_e": differences(&found.recipe_delta_e),
+            "batch_delta_e": self.differences(&found.batch_delta_e),
+            "recipe_delta_e": self.differences(&found.recipe_delta_e),
             "by": self.options.metric.name(),
             "unit": self.options.metric.unit(),
             "batch_rms_percent": found.batch_rms_percent,
             "tolerance": self.options.tolerance,
             "is_near": found.is_near,
             "reaches": found.reaches,
-            "corrections": found.corrections.iter().map(correction).collect::<Vec<Value>>(),
+            "corrections": corrections.collect::<Vec<Value>>(),
         })
     }
 
     /// One row for each pigment of each correction.
     fn rows(&self, found: &Corrections) -> Vec<Value> {
-        let of = |(rank, correction): (usize, &Correction)| -> Vec<Value> {
-            correction
-                .additions
-                .iter()
-                .map(|(id, grams): &(PigmentId, f64)| {
-                    json!({
-                        "correction": rank + 1,
-                        "pigment": self.library[*id].name,
-                        "grams": grams,
-                        "distance": correction.distance,
-                    })
-                })
-                .collect()
-        };
-        found.corrections.iter().enumerate().flat_map(of).collect()
+        let mut rows = Vec::new();
+        for (rank, correction) in found.corrections.iter().enumerate() {
+            for (id, grams) in &correction.additions {
+                rows.push(json!({
+                    "correction": rank + 1,
+                    "pigment": self.library[*id].name,
+                    "grams": grams,
+                    "distance": correction.distance,
+                }));
+            }
+        }
+        rows
+    }
+
+    fn lab(&self, labs: &[Lab]) -> Value {
+        self.by_light(labs.iter().map(|lab| json!(lab.to_array())))
+    }
+
+    fn differences(&self, found: &[f64]) -> Value {
+        self.by_light(found.iter().map(|d| json!(d)))
     }
 
     /// JSON object with one value per light, keyed by its name.

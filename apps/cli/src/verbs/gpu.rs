@@ -32,20 +32,19 @@ impl Gpu {
         let forced = best(&found, BackendChoice::Gpu);
         let why = why(&found, used);
         if self.json {
-            let name = |adapter: Option<&Adapter>| adapter.map(|adapter| adapter.name.clone());
+            let [used, forced] = [used, forced].map(|adapter| adapter.map(|found| &found.name));
             return console.json(&json!({
-                "used": name(used),
-                "with_backend_gpu": name(forced),
+                "used": used,
+                "with_backend_gpu": forced,
                 "why": why,
                 "adapters": found.iter().map(as_json).collect::<Vec<_>>(),
             }));
         }
         if self.csv {
-            let same = |a: Option<&Adapter>, b: &Adapter| a.is_some_and(|a| std::ptr::eq(a, b));
             let rows = found.iter().map(|adapter| {
-                let of_use = if same(used, adapter) {
+                let of_use = if used.is_some_and(|used| std::ptr::eq(used, adapter)) {
                     "yes"
-                } else if same(forced, adapter) {
+                } else if forced.is_some_and(|forced| std::ptr::eq(forced, adapter)) {
                     "by --backend gpu"
                 } else {
                     "no"

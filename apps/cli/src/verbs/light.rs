@@ -123,24 +123,23 @@ impl Described {
     /// Prints R1 to R14 and the fidelity by hue.
     fn print_samples(&self, console: &mut Console<'_>) -> Result<()> {
         let ColorRendering { index, fidelity, .. } = &self.rendering;
-        let special = index.special.iter().copied().map(Some);
-        let hues = fidelity.hue_bins.iter().copied();
+        let special: Vec<Option<f64>> = index.special.iter().copied().map(Some).collect();
         console.line("")?;
         console.line(self.light.name())?;
-        let numbered = |prefix: &str, count: usize| -> String {
-            (1..=count).map(|number| format!("{:>5}", format!("{prefix}{number}"))).collect()
-        };
-        let cells = |values: &mut dyn Iterator<Item = Option<f64>>| -> String {
-            values
-                .map(|value: Option<f64>| {
-                    value.map_or_else(|| format!("{:>5}", "-"), |value| format!("{value:5.0}"))
-                })
-                .collect()
-        };
-        console.line(format!("CRI    {}", numbered("R", index.special.len())))?;
-        console.line(format!("       {}", cells(&mut special.into_iter())))?;
-        console.line(format!("Rf, hue{}", numbered("", fidelity.hue_bins.len())))?;
-        console.line(format!("       {}", cells(&mut hues.into_iter())))
+        for (title, prefix, values) in
+            [("CRI    ", "R", &special), ("Rf, hue", "", &fidelity.hue_bins)]
+        {
+            let mut numbers = title.to_owned();
+            let mut cells = " ".repeat(7);
+            for (number, value) in (1..).zip(values) {
+                numbers += &format!("{:>5}", format!("{prefix}{number}"));
+                cells +=
+                    &value.map_or_else(|| format!("{:>5}", "-"), |value| format!("{value:5.0}"));
+            }
+            console.line(numbers)?;
+            console.line(cells)?;
+        }
+        Ok(())
     }
 }
 

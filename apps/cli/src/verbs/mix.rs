@@ -116,14 +116,16 @@ fn parsed_recipe(texts: &[String]) -> Result<Vec<(&str, f64)>> {
     texts
         .iter()
         .map(|text| {
-            let invalid = || {
+            let found = text.rsplit_once('=').and_then(|(name, parts)| {
+                let parts: f64 = parts.trim().parse().ok()?;
+                Some((name, parts))
+            });
+            found.ok_or_else(|| {
                 Failure::usage(
                     format!("a recipe takes NAME=PARTS, found `{text}`"),
                     "try \"Zinc White=9\" \"Cobalt Blue=1\"",
                 )
-            };
-            let (name, parts) = text.rsplit_once('=').ok_or_else(invalid)?;
-            Ok((name, parts.trim().parse().map_err(|_| invalid())?))
+            })
         })
         .collect()
 }

@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use calibrate::plan::{Forecast, MeasurementForm, PaintSet, Plan as PlanReportPlan, PlanRequest};
-use calibrate::{PigmentId, Recipe};
 use clap::{Arg, Args};
 use documents::Task;
 use spectra::Grid;
@@ -93,7 +92,7 @@ impl Plan {
             ));
         }
         let inputs: Vec<PathBuf> = path.iter().cloned().collect();
-        let open = |path: &PathBuf| {
+        let output = self.output.as_ref().map(|path| {
             let output = Output::open(path, &inputs)?;
             // The file may hold readings by now.
             if path.exists() {
@@ -103,12 +102,13 @@ impl Plan {
                 ));
             }
             Ok(output)
-        };
-        let output = self.output.as_ref().map(open).transpose()?;
+        });
+        let output = output.transpose()?;
         let prior = path.as_deref().map(library).transpose()?;
         let request = PlanRequest { prior, ..request };
-        let planned = || calibrate::plan(pigments, &self.white, &request, &Task::default());
-        let plan = waited("choosing swatches", console, planned)?;
+        let plan = waited("choosing swatches", console, || {
+            calibrate::plan(pigments, &self.white, &request, &Task::default())
+        })?;
         console.remarks(&plan.remarks)?;
         if let Some(output) = output {
             output.write(plan.form(&form), console)?;
@@ -174,10 +174,12 @@ impl Plan {
 }
 
 pub(super) fn print_swatches(plan: &PlanReportPlan, console: &mut Console<'_>) -> Result<()> {
-    let part =
-        |&(paint, grams): &(PigmentId, f64)| format!("{grams} g {}", plan.paints.name(paint));
-    let recipe = |grams: &Recipe| grams.iter().map(part).collect::<Vec<_>>().join(" + ");
-    let recipes: Vec<String> = plan.swatches.iter().map(|swatch| recipe(&swatch.grams)).collect();
+    let recipes = plan.swatches.iter().map(|swatch| {
+        let parts = swatch.grams.iter();
+        let parts = parts.map(|&(paint, grams)| format!("{grams} g {}", plan.paints.name(paint)));
+        parts.collect::<Vec<_>>().join(" + ")
+    });
+    let recipes: Vec<String> = recipes.collect();
     let width = plan.swatches.iter().map(|s| s.name.chars().count()).max().unwrap_or(0);
     let recipe_width = recipes.iter().map(|text| text.chars().count()).max().unwrap_or(0);
     for (swatch, recipe) in plan.swatches.iter().zip(&recipes) {
@@ -217,15 +219,14 @@ pub(super) fn print_forecast(
         large if large > 999.0 => ">999".to_owned(),
         value => format!("{value:.1}"),
     };
-    let unit = || "unit".to_owned();
     let pairs = forecast.deviations.iter().zip(&forecast.usual_deviations);
     for (name, (own, usual)) in paints.names.iter().zip(pairs) {
         console.line(format!(
             "{name:width$} {:>7} {:>7}  {:>8} {:>8}",
             percent(own.absorption),
-            own.scattering.map_or_else(unit, percent),
+            own.scattering.map_or_else(|| "unit".to_owned(), percent),
             percent(usual.absorption),
-            usual.scattering.map_or_else(unit, percent),
+            usual.scattering.map_or_else(|| "unit".to_owned(), percent),
         ))?;
     }
     Ok(())

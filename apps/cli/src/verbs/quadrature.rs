@@ -67,8 +67,9 @@ impl Quadrature {
                 "try impasto quadrature LIBRARY.json",
             ));
         }
-        let chosen = || request.run(library.as_ref(), &Task::default());
-        let outcome = waited("fitting wavelengths", console, chosen)?;
+        let outcome = waited("fitting wavelengths", console, || {
+            request.run(library.as_ref(), &Task::default())
+        })?;
         if let Some(library) = &library
             && (outcome.effective.is_some() || request.mixtures > 0)
         {

@@ -350,6 +350,12 @@ const GAP: &str = "  ";
 /// Title and headings of the difference of reflectance.
 const REFLECTANCE: [&str; 2] = ["reflectance", "rms, %"];
 
+/// Names in columns of the least width.
+fn joined(names: &[String], gap: &str) -> String {
+    let each: Vec<String> = names.iter().map(|name| format!("{name:>WIDTH$}")).collect();
+    each.join(gap)
+}
+
 /// Headings and widths of the figures of a recipe.
 #[derive(Debug)]
 pub(super) struct RecipeColumns {
@@ -374,10 +380,6 @@ impl RecipeColumns {
 
     /// Lines above the recipes.
     pub(super) fn headings(&self) -> Vec<String> {
-        let joined = |names: &[String], gap: &str| -> String {
-            let each: Vec<String> = names.iter().map(|name| format!("{name:>WIDTH$}")).collect();
-            each.join(gap)
-        };
         let lights = joined(&self.lights, " ");
         if !self.is_measured {
             return vec![format!("     {lights}  (CIEDE2000)")];

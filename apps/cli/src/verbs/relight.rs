@@ -94,23 +94,26 @@ impl Relight {
 
     /// Lighting of the painting with the given options in place of the `saved` values.
     fn lighting(&self, saved: &Lighting) -> Result<Lighting> {
-        let number =
-            |name: &str, option: Option<f64>, saved: f64, least: f64, most: f64| match option {
-                Some(value) if !(least..=most).contains(&value) => Err(Failure::usage(
-                    format!("--{name} takes {least} to {most}, found `{value}`"),
-                    "see impasto relight --help",
-                )),
-                option => Ok(option.unwrap_or(saved)),
-            };
         Ok(Lighting {
             illuminant: self.illuminant.clone().unwrap_or_else(|| saved.illuminant.clone()),
             observer: self.observer.clone().unwrap_or_else(|| saved.observer.clone()),
-            azimuth_deg: number("azimuth", self.azimuth, saved.azimuth_deg, -360.0, 360.0)?,
-            elevation_deg: number("elevation", self.elevation, saved.elevation_deg, 1.0, 90.0)?,
-            ambient: number("ambient", self.ambient, saved.ambient, 0.0, 1.0)?,
-            relief: number("relief", self.relief, saved.relief, 0.0, 10.0)?,
-            adaptation: number("adaptation", self.adaptation, saved.adaptation, 0.0, 1.0)?,
+            azimuth_deg: number("azimuth", self.azimuth, saved.azimuth_deg, [-360.0, 360.0])?,
+            elevation_deg: number("elevation", self.elevation, saved.elevation_deg, [1.0, 90.0])?,
+            ambient: number("ambient", self.ambient, saved.ambient, [0.0, 1.0])?,
+            relief: number("relief", self.relief, saved.relief, [0.0, 10.0])?,
+            adaptation: number("adaptation", self.adaptation, saved.adaptation, [0.0, 1.0])?,
         })
+    }
+}
+
+/// Number of the option `name`, or the saved one without it.
+fn number(name: &str, option: Option<f64>, saved: f64, [least, most]: [f64; 2]) -> Result<f64> {
+    match option {
+        Some(value) if !(least..=most).contains(&value) => Err(Failure::usage(
+            format!("--{name} takes {least} to {most}, found `{value}`"),
+            "see impasto relight --help",
+        )),
+        option => Ok(option.unwrap_or(saved)),
     }
 }
 
@@ -131,10 +134,10 @@ fn swap(painting: &mut Painting, text: &str) -> Result<()> {
         "all" => {
             let dry = (0..painting.state().dry.len()).map(LayerRef::Dry);
             let all: Vec<LayerRef> = dry.chain([LayerRef::Wet]).collect();
-            let has = |layer: &LayerRef| {
+            let found = all.into_iter().filter(|layer| {
                 painting.slots(*layer).is_ok_and(|slots| slots.contains(&Some(from)))
-            };
-            let found: Vec<LayerRef> = all.into_iter().filter(has).collect();
+            });
+            let found: Vec<LayerRef> = found.collect();
             if found.is_empty() {
                 return Err(Failure::data(
                     format!("no layer has {}", painting.library()[from].name),

@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use calibrate::Readings;
-use calibrate::comparison::Comparison;
 use calibrate::validation::Validation;
 use clap::{Arg, ArgAction, Args};
 use reports::{ReportError, ReportRequest, STEPS, Subject};
@@ -149,30 +148,29 @@ impl Report {
         let path = |inside: &str| self.output.join(inside).display().to_string();
         let Subject { comparison, validation, .. } = subject;
         let figures = report.figures().map(|figure| {
-            let file = |ending: &str| path(&format!("figures/{}.{ending}", figure.name));
+            let [svg, png, csv] = ["svg", "png", "csv"]
+                .map(|ending| path(&format!("figures/{}.{ending}", figure.name)));
             json!({
                 "name": figure.name,
                 "title": figure.title,
-                "svg": file("svg"),
-                "png": file("png"),
-                "csv": file("csv"),
+                "svg": svg,
+                "png": png,
+                "csv": csv,
             })
         });
         if self.csv {
             return console.csv_rows(&figures.collect::<Vec<Value>>());
         }
         if self.json {
-            let absent = |c: &Comparison| -> Vec<Value> {
-                let samples = c.absent.iter();
-                samples.map(|(s, lacks)| json!({"sample": s, "pigments": lacks})).collect()
-            };
+            let absent = comparison.iter().flat_map(|c| &c.absent);
+            let absent = absent.map(|(s, lacks)| json!({"sample": s, "pigments": lacks}));
             return console.json(&json!({
                 "page": path(PAGE),
                 "figures": figures.collect::<Vec<Value>>(),
                 "samples": comparison.as_ref().map(|c| c.sure().count()),
                 "delta_e": comparison.as_ref().map(|c| c.delta_e.rounded()),
                 "left_out": validation.as_ref().map(|v| v.delta_e.rounded()),
-                "absent": comparison.as_ref().map_or_else(Vec::new, absent),
+                "absent": absent.collect::<Vec<Value>>(),
             }));
         }
         let summary =

@@ -1,7 +1,7 @@
 //! `impasto simulate-scan`: a painting of this program as a spectral camera would scan it, with the truth.
 
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use maps::camera::{Camera, CameraSettings, Scene};
@@ -175,11 +175,10 @@ impl SimulateScan {
     }
 
     fn truth_path(&self) -> PathBuf {
-        let beside = || {
+        self.truth.clone().unwrap_or_else(|| {
             let stem = self.output.file_stem().unwrap_or_default().to_string_lossy();
             self.output.with_file_name(format!("{stem}-truth.zarr"))
-        };
-        self.truth.as_ref().map_or_else(beside, |path: &PathBuf| Path::to_owned(path))
+        })
     }
 }
 

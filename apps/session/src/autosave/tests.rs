@@ -16,9 +16,10 @@ use crate::prepare::blank_canvas;
 
 fn files(text: &str) -> Vec<(&'static str, Content)> {
     let meta = SessionMeta { title: text.to_owned(), path: None, seconds: 7, desk: None };
-    let text = || Content::Bytes(text.as_bytes().to_vec());
+    let [canvas, palette] =
+        [CANVAS, PALETTE].map(|file| (file, Content::Bytes(text.as_bytes().to_vec())));
     let meta = Content::Bytes(serde_json::to_vec(&meta).unwrap());
-    vec![(CANVAS, text()), (PALETTE, text()), (META, meta)]
+    vec![canvas, palette, (META, meta)]
 }
 
 /// Text of the only lost session, if there is one. Asserts that its files agree.

@@ -169,11 +169,10 @@ impl BrushSet {
     /// Appends a number to a name that is taken.
     fn free_name(&self, name: &str) -> String {
         let name = proper_name(name).unwrap_or_else(|| "brush".to_owned());
-        let taken = |name: &str| self.presets.iter().any(|own| own.name == name);
         let stem: String = name.chars().take(72).collect();
         let mut free = name;
         let mut number = 2;
-        while taken(&free) {
+        while self.presets.iter().any(|own| own.name == free) {
             free = format!("{stem} {number}");
             number += 1;
         }

@@ -46,15 +46,17 @@ pub(super) fn first_camera(script: &Script, mesh: &Mesh, flat: bool) -> Camera {
         return view.turned(right as f32, up as f32);
     }
     let aspect = FIRST_PICTURE.0 as f32 / FIRST_PICTURE.1 as f32;
-    let framed = |framing: Framing| Framing { aspect, ..framing }.fit(&mesh.positions);
-    match script.camera.as_ref().map(|camera| camera.camera(1)) {
+    let framing = match script.camera.as_ref().map(|camera| camera.camera(1)) {
         Some(ScriptCamera::Path(path)) => {
-            let first = path.cameras(mesh.bounds()).into_iter().next();
-            first.unwrap_or_else(|| framed(Framing::default()))
+            if let Some(first) = path.cameras(mesh.bounds()).into_iter().next() {
+                return first;
+            }
+            Framing::default()
         }
-        Some(ScriptCamera::Framing(framing)) => framed(framing),
-        None => framed(Framing::default()),
-    }
+        Some(ScriptCamera::Framing(framing)) => framing,
+        None => Framing::default(),
+    };
+    Framing { aspect, ..framing }.fit(&mesh.positions)
 }
 
 /// A camera in the form of a script.
@@ -83,24 +85,20 @@ pub(super) fn recorded_camera(camera: &Camera, mesh: &Mesh) -> Camera {
 /// not depend on its camera. A pick that hits nothing stays, and is refused when the script is
 /// played.
 pub(super) fn resolve_picks(script: &mut Script, mesh: &Mesh, view: &FirstView) {
-    let resolve = |at: &mut Option<Row<3>>, picked: &mut Option<Row<2>>| {
+    let pours = script.pours.iter_mut().map(|pour| (&mut pour.at, &mut pour.picked));
+    let lifts = script.lifts.iter_mut().map(|lift| (&mut lift.at, &mut lift.picked));
+    for (at, picked) in pours.chain(lifts) {
         let place = picked.and_then(|Row(share)| view.place(mesh, share));
         if let Some(place) = place {
             (*at, *picked) = (Some(Row(place.to_array().map(f64::from))), None);
         }
-    };
-    script.pours.iter_mut().for_each(|pour| resolve(&mut pour.at, &mut pour.picked));
-    script.lifts.iter_mut().for_each(|lift| resolve(&mut lift.at, &mut lift.picked));
+    }
 }
 
 /// Where the paint is, in mm3.
 pub(super) fn tally(tally: &Tally, quantum_mm3: f64, volumes: usize) -> SceneTally {
-    let mm3 = |amounts: &[u64]| amounts.iter().sum::<u64>() as f64 * quantum_mm3;
-    SceneTally {
-        poured_mm3: mm3(&tally.poured),
-        on_surfaces_mm3: mm3(&tally.on_scene),
-        lifted_mm3: mm3(&tally.lifted),
-        left_mm3: mm3(&tally.in_tube),
-        volumes,
-    }
+    let [poured_mm3, on_surfaces_mm3, lifted_mm3, left_mm3] =
+        [tally.poured, tally.on_scene, tally.lifted, tally.in_tube]
+            .map(|amounts| amounts.iter().sum::<u64>() as f64 * quantum_mm3);
+    SceneTally { poured_mm3, on_surfaces_mm3, lifted_mm3, left_mm3, volumes }
 }

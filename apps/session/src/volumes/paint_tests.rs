@@ -335,9 +335,9 @@ fn a_place_tells_its_paint_and_its_colour() {
     picture(&mut scene);
     let wet = scene.here(&sight(&scene), [0.5, 0.5]);
     let paint = wet.paint.as_ref().unwrap();
-    let name = |slot: usize| scene.materials.library[paint.slots[slot].unwrap()].name.clone();
+    let name = &scene.materials.library[paint.slots[5].unwrap()].name;
     let poured: Vec<usize> = (0..9).filter(|&slot| paint.amounts_mm[slot] > 0.0).collect();
-    assert_eq!((&poured[..], name(5).as_str()), (&[5][..], "Ultramarine"), "{wet:?}");
+    assert_eq!((&poured[..], name.as_str()), (&[5][..], "Ultramarine"), "{wet:?}");
     assert!((0.001..1.0).contains(&paint.amounts_mm[5]), "{wet:?}");
     assert!(wet.volumes > 0 && wet.lab[0] > 0.0, "{wet:?}");
 }

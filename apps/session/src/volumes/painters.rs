@@ -190,8 +190,7 @@ impl Painters {
                 kind = Kind::Drawing;
             }
         }
-        let will_do = |own: &Self| own.is_made(kind) || !waits && own.index(kind).is_some();
-        while !will_do(self) {
+        while !self.is_made(kind) && (waits || self.index(kind).is_none()) {
             // A painter of another kind may be in the making.
             let others = self.making.as_ref().is_some_and(|(own, ..)| *own != kind);
             if others && kind == Kind::Drawing {

@@ -69,11 +69,11 @@ impl Scan {
         // Frees the memory of an earlier run first.
         self.surveyed = None;
         let cube = Cube::of_files(&self.files, &self.options).told()?;
-        let pixels = |rows: usize, columns: usize| rows.saturating_mul(columns).min(SURVEYED);
-        let about = match &chosen.region {
-            Some(region) => pixels(region.rows.len(), region.columns.len()),
-            None => pixels(cube.lines(), cube.samples()),
+        let (rows, columns) = match &chosen.region {
+            Some(region) => (region.rows.len(), region.columns.len()),
+            None => (cube.lines(), cube.samples()),
         };
+        let about = rows.saturating_mul(columns).min(SURVEYED);
         let task = told::task_in_percent("surveying", about);
         let scan = chosen.survey(cube, &library, None, &task).told()?;
         let every = every.max(1);
@@ -142,9 +142,7 @@ fn map_all(scan: &SurveyedScan, every: usize) -> Result<OverviewSums> {
 fn longest((height, width): (usize, usize), pigments: usize) -> usize {
     let long = height.max(width);
     let mut step = long.div_ceil(PICTURE).max(1);
-    let bytes =
-        |step: usize| (height.div_ceil(step) * width.div_ceil(step)).saturating_mul(pigments * 16);
-    while bytes(step) > SUM_BYTES {
+    while (height.div_ceil(step) * width.div_ceil(step)).saturating_mul(pigments * 16) > SUM_BYTES {
         step += 1;
     }
     long.div_ceil(step)

@@ -9,14 +9,14 @@ pub(crate) fn told(framed: &Framed) -> String {
     let figures = studio.figures();
     let painting = studio.painting();
     let placement = studio.canvas.placement();
-    let place = |cell: [f64; 2]| {
+    let (width, height) = studio.canvas.cells();
+    let corners = [[0.0, 0.0], [width as f64, height as f64]].map(|cell| {
         let point = placement.point(cell) * framed.zoom();
         [point.x, point.y]
-    };
-    let (width, height) = studio.canvas.cells();
+    });
     json!({
         // Corners of the canvas in CSS pixels, and its size in cells.
-        "corners": [place([0.0, 0.0]), place([width as f64, height as f64])],
+        "corners": corners,
         "cells": [width, height],
         "cell_mm": painting.map(|state| state.cell_mm),
         "frames": framed.frames,

@@ -23,9 +23,11 @@ pub fn hint_text(hint: &Hint, controls: &Controls) -> String {
         }
         let control = controls.iter().find(|(setting, _)| *setting == name);
         // A word in capitals stands for what the user writes.
-        let is_word = |value: &str| !value.chars().any(|c| c.is_ascii_lowercase() || c == '"');
-        let is_number = |value: &str| value.parse::<f64>().is_ok();
-        match (control, value.filter(|value| !is_word(value) || is_number(value))) {
+        let value = value.filter(|value| {
+            value.chars().any(|c| c.is_ascii_lowercase() || c == '"')
+                || value.parse::<f64>().is_ok()
+        });
+        match (control, value) {
             (Some((_, control)), None) => (*control).to_owned(),
             (Some((_, control)), Some(value)) => {
                 format!("{control}: {}", value.trim_matches('"'))

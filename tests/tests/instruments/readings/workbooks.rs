@@ -32,14 +32,6 @@ fn workbook_of(sheets: &[(&str, &str)], first: usize) -> Vec<u8> {
             text => format!("<c r=\"{letter}{row}\" t=\"str\"><v>{text}</v></c>"),
         }
     }
-    let rows = |csv: &str| -> String {
-        let rows = csv.lines().zip(first..).map(|(line, row)| {
-            let cells = line.split(',').enumerate();
-            let cells: String = cells.map(|(column, text)| cell(text, row, column)).collect();
-            format!("<row r=\"{row}\">{cells}</row>")
-        });
-        rows.collect()
-    };
     let mut list = String::new();
     let mut relations = String::new();
     for ((name, _), id) in sheets.iter().zip(1..) {
@@ -67,8 +59,13 @@ fn workbook_of(sheets: &[(&str, &str)], first: usize) -> Vec<u8> {
         ),
     ];
     for ((_, csv), id) in sheets.iter().zip(1..) {
-        let xml =
-            format!("<worksheet xmlns=\"{MAIN}\"><sheetData>{}</sheetData></worksheet>", rows(csv));
+        let rows = csv.lines().zip(first..).map(|(line, row)| {
+            let cells = line.split(',').enumerate();
+            let cells: String = cells.map(|(column, text)| cell(text, row, column)).collect();
+            format!("<row r=\"{row}\">{cells}</row>")
+        });
+        let rows: String = rows.collect();
+        let xml = format!("<worksheet xmlns=\"{MAIN}\"><sheetData>{rows}</sheetData></worksheet>");
         files.push((format!("xl/worksheets/sheet{id}.xml"), xml));
     }
     let mut writer = ZipWriter::new(Cursor::new(Vec::new()));

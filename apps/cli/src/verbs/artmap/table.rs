@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use artmap::map::{ArtMap, KeyFigures, MapFigures};
+use artmap::map::{ArtMap, MapFigures};
 use artmap::passages::SourcePicture;
 use artmap::sample::{PaintOfSamples, Sample, SampleSet, WholePainting};
 use graphics::picture::{Photograph, Picture};
@@ -33,13 +33,12 @@ impl Table {
 
     /// Prints the rows, each column as wide as its widest cell.
     pub(super) fn print(&self, console: &mut Console<'_>) -> Result<()> {
-        let width = |column: usize| {
-            let cells = self.rows.iter().filter_map(|row| row.get(column));
-            cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
-        };
         for row in &self.rows {
-            let cells = row.iter().enumerate();
-            let cells = cells.map(|(column, cell)| format!("{cell:0$}", width(column)));
+            let cells = row.iter().enumerate().map(|(column, cell)| {
+                let cells = self.rows.iter().filter_map(|row| row.get(column));
+                let width = cells.map(|cell| cell.chars().count()).max().unwrap_or(0);
+                format!("{cell:width$}")
+            });
             console.line(cells.collect::<Vec<_>>().join("  ").trim_end())?;
         }
         Ok(())
@@ -164,7 +163,7 @@ pub(super) fn print_tiles(figures: &MapFigures, console: &mut Console<'_>) -> Re
 
 /// A map and its figures as JSON, with `more` beside them.
 pub(super) fn map_json(map: &ArtMap, figures: &MapFigures) -> Value {
-    let tile = |key: &KeyFigures| {
+    let tiles = figures.keys.iter().map(|key| {
         json!({
             "name": key.name,
             "lightness": key.tone,
@@ -174,7 +173,7 @@ pub(super) fn map_json(map: &ArtMap, figures: &MapFigures) -> Value {
             "neighbour_coherence": key.neighbour_coherence,
             "border": key.wrap_ratio,
         })
-    };
+    });
     json!({
         "provenance": map.provenance,
         "size": map.size(),
@@ -186,7 +185,7 @@ pub(super) fn map_json(map: &ArtMap, figures: &MapFigures) -> Value {
         "patch": map.patch,
         "levels": map.levels,
         "settings": map.settings,
-        "tiles": figures.keys.iter().map(tile).collect::<Vec<_>>(),
+        "tiles": tiles.collect::<Vec<_>>(),
         "faults": figures.faults().iter().map(ToString::to_string).collect::<Vec<_>>(),
     })
 }

@@ -76,12 +76,12 @@ fn worst(library: &PigmentLibrary) -> Vec<&SampleEvidence> {
 }
 
 fn as_json(library: &PigmentLibrary, health: &Health) -> Value {
-    let findings = |severity: Severity| -> Vec<Value> {
+    let [faults, warnings] = [Severity::Fault, Severity::Warning].map(|severity| {
         let findings = health.findings.iter().filter(|finding| finding.severity == severity);
         findings
             .map(|finding| json!({ "pigment": finding.pigment, "what": finding.what }))
-            .collect()
-    };
+            .collect::<Vec<Value>>()
+    });
     let pigments = health.pigments.iter().zip(&library.pigments).map(|(health, pigment)| {
         json!({
             "name": health.name,
@@ -96,8 +96,8 @@ fn as_json(library: &PigmentLibrary, health: &Health) -> Value {
     });
     json!({
         "pigments": pigments.collect::<Vec<_>>(),
-        "faults": findings(Severity::Fault),
-        "warnings": findings(Severity::Warning),
+        "faults": faults,
+        "warnings": warnings,
         "evidence": library.evidence.as_ref().map(|evidence| json!({
             "rms": evidence.rms,
             "delta_e": evidence.delta_e,
@@ -128,16 +128,13 @@ fn print(library: &PigmentLibrary, health: &Health, console: &mut Console<'_>) -
     console.line(format!("{:width$}  {:>17}  +- %  {:>17}  +- %  L*", "pigment", "K", "S"))?;
     for pigment in &health.pigments {
         let PigmentHealth { name, absorption, scattering, masstone, .. } = pigment;
-        let range = |[low, high]: [f64; 2]| format!("{low:.3} to {high:.3}");
-        let share = |share: Option<f64>| {
+        let [k, s] = [absorption, scattering].map(|[low, high]| format!("{low:.3} to {high:.3}"));
+        let shares = [pigment.absorption_uncertainty, pigment.scattering_uncertainty];
+        let [k_sd, s_sd] = shares.map(|share| {
             share.map_or_else(|| "-".to_owned(), |share| format!("{:.0}", 100.0 * share))
-        };
+        });
         console.line(format!(
-            "{name:width$}  {:>17}  {:>4}  {:>17}  {:>4}  {:2.0}",
-            range(*absorption),
-            share(pigment.absorption_uncertainty),
-            range(*scattering),
-            share(pigment.scattering_uncertainty),
+            "{name:width$}  {k:>17}  {k_sd:>4}  {s:>17}  {s_sd:>4}  {:2.0}",
             masstone.lightness
         ))?;
     }
@@ -237,14 +234,11 @@ impl Diff {
             for (viewing, found) in lights.iter().zip(&found) {
                 print_differences(viewing, found, console)?;
             }
-            let only = |path: &PathBuf, names: &[String]| {
-                format!("only in {}: {}", path.display(), names.join(", "))
-            };
             for (path, names) in
                 [(&self.first, &found[0].only_first), (&self.second, &found[0].only_second)]
             {
                 if !names.is_empty() {
-                    console.line(only(path, names))?;
+                    console.line(format!("only in {}: {}", path.display(), names.join(", ")))?;
                 }
             }
         }
@@ -261,7 +255,7 @@ impl Diff {
     }
 
     fn as_json(&self, lights: &[Viewing], found: &[Difference], largest: f64) -> Value {
-        let of_light = |(viewing, found): (&Viewing, &Difference)| {
+        let lights = lights.iter().zip(found).map(|(viewing, found)| {
             let pigments = found
                 .pigments
                 .iter()
@@ -275,9 +269,9 @@ impl Diff {
                 "pairs": pairs.collect::<Vec<_>>(),
                 "largest": found.largest(),
             })
-        };
+        });
         json!({
-            "lights": lights.iter().zip(found).map(of_light).collect::<Vec<_>>(),
+            "lights": lights.collect::<Vec<_>>(),
             "white": found[0].white,
             "only_first": found[0].only_first,
             "only_second": found[0].only_second,

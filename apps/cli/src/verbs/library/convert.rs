@@ -375,7 +375,7 @@ impl Rename {
 
 /// Parses texts `NAME=CHANGE`.
 fn pairs(texts: &[String]) -> Result<Vec<(String, String)>> {
-    let pair = |text: &String| {
+    let pairs = texts.iter().map(|text| {
         let parts = text.split_once('=').filter(|(name, _)| !name.trim().is_empty());
         let (name, value) = parts.ok_or_else(|| {
             Failure::usage(
@@ -384,8 +384,8 @@ fn pairs(texts: &[String]) -> Result<Vec<(String, String)>> {
             )
         })?;
         Ok((name.to_owned(), value.to_owned()))
-    };
-    texts.iter().map(pair).collect()
+    });
+    pairs.collect()
 }
 
 /// Keep some pigments of a library; their K and S do not change

@@ -79,10 +79,9 @@ impl List {
         let ChosenLibrary { library, .. } = chosen(self.library.as_deref(), console)?;
         if !self.json && !self.csv {
             let evidence = library.evidence.as_ref();
-            let stated = |text: &str| if text.is_empty() { "not stated" } else { text }.to_owned();
-            let title = stated(&library.title);
-            let source = stated(&library.source);
-            let licence = stated(&library.licence);
+            let stated = [&library.title, &library.source, &library.licence];
+            let [title, source, licence] =
+                stated.map(|text| if text.is_empty() { "not stated" } else { text.as_str() });
             console.line(format!("{title}, {}", library.grid))?;
             console.line(format!("source: {source}; licence: {licence}"))?;
             let unit = match &library.reference {
@@ -213,17 +212,13 @@ impl Show {
             console.line(format!("note: {note}"))?;
         }
         console.line("    nm            K       +-            S       +-")?;
-        let deviation = |curve: &[f64], index: usize| {
-            curve.get(index).map_or_else(|| "-".to_owned(), |v| format!("{v:.2e}"))
-        };
         for (index, nm) in library.grid.wavelengths_nm().enumerate() {
-            console.line(format!(
-                "{nm:6} {:12.6} {:>8} {:12.6} {:>8}",
-                pigment.absorption[index],
-                deviation(&pigment.absorption_sd, index),
-                pigment.scattering[index],
-                deviation(&pigment.scattering_sd, index),
-            ))?;
+            let [k_sd, s_sd] = [&pigment.absorption_sd, &pigment.scattering_sd].map(|curve| {
+                curve.get(index).map_or_else(|| "-".to_owned(), |v| format!("{v:.2e}"))
+            });
+            let k = pigment.absorption[index];
+            let s = pigment.scattering[index];
+            console.line(format!("{nm:6} {k:12.6} {k_sd:>8} {s:12.6} {s_sd:>8}"))?;
         }
         Ok(())
     }

@@ -117,8 +117,8 @@ impl Map {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let request = self.request.request()?;
         let inputs = [self.scan.clone()];
-        let folder = |path: &PathBuf| OutputFolder::open(path, &inputs);
-        let pictures = self.pictures.as_ref().map(folder).transpose()?;
+        let pictures = self.pictures.as_ref();
+        let pictures = pictures.map(|path| OutputFolder::open(path, &inputs)).transpose()?;
         let truth = self.truth.as_ref().map(Truth::open).transpose()?;
         if !(0.0..1.0).contains(&self.least_share) {
             return Err(Failure::usage(
@@ -281,7 +281,7 @@ const NAMED: f64 = 0.001;
 
 /// A row for each kind of pixels.
 fn rows(compared: &Comparison) -> Vec<Value> {
-    let row = |row: &maps::truth::ComparisonRow| {
+    let rows = compared.rows.iter().map(|row| {
         json!({
             "kind": row.kind,
             "pixels": row.pixels,
@@ -292,8 +292,8 @@ fn rows(compared: &Comparison) -> Vec<Value> {
             "within_sd": row.within_sd,
             "chi2_risen": row.chi2_risen,
         })
-    };
-    compared.rows.iter().map(row).collect()
+    });
+    rows.collect()
 }
 
 fn json(compared: &Comparison) -> Value {

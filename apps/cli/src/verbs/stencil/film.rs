@@ -247,8 +247,8 @@ impl Snapshots {
     /// Goes on to the newest snapshot that is not later than `step`, if it is ahead.
     pub(super) fn go_ahead(&mut self, play: &mut Performance, step: u64) {
         let now = play.step();
-        let ahead = |moment: &&Performance| moment.step() > now && moment.step() <= step;
-        if let Some(moment) = self.found.iter().rev().find(ahead) {
+        let mut ahead = self.found.iter().rev();
+        if let Some(moment) = ahead.find(|moment| moment.step() > now && moment.step() <= step) {
             self.from_s.get_or_insert(moment.world().seconds());
             *play = moment.clone();
         }
@@ -291,13 +291,13 @@ fn file_name(frame: usize) -> String {
 /// Files of snapshots in a folder, in the order of their frames.
 fn files(folder: &Path) -> Vec<PathBuf> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
-    let numbered = |path: PathBuf| {
+    let numbered = entries.filter_map(|entry| {
+        let path = entry.ok()?.path();
         let name = path.file_name()?.to_str()?;
         let number = name.strip_prefix("frame-")?.strip_suffix(".world")?.parse::<usize>().ok()?;
         Some((number, path))
-    };
-    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
-    let mut files: Vec<(usize, PathBuf)> = paths.filter_map(numbered).collect();
+    });
+    let mut files: Vec<(usize, PathBuf)> = numbered.collect();
     files.sort_unstable();
     files.into_iter().map(|(_, path)| path).collect()
 }

@@ -9,7 +9,6 @@ use serde_json::json;
 use volumes::painter::{Show, Subject, VolumePainter, VolumePigments};
 use volumes::performance::Performance;
 use volumes::settings::{Preset, Settings};
-use volumes::volume::Volume;
 use volumes::world::{StepDevice, World};
 
 use super::film::{Film, Snapshots, Stills};
@@ -191,12 +190,13 @@ impl Job {
     /// anything is written, this first plays the script to its very last step. If an earlier run
     /// left snapshots, it has checked this already.
     fn rehearsed(&self, has_frames: bool, snapshots: &mut Snapshots) -> Result<Performance> {
-        let located = |error| self.script.located_event(error);
         let mut play = self.beginning.clone();
-        snapshots.advance(&mut play, self.times.still).map_err(located)?;
+        let played = snapshots.advance(&mut play, self.times.still);
+        played.map_err(|error| self.script.located_event(error))?;
         let still = play.clone();
         if (has_frames || self.outputs.volumes.is_some()) && !snapshots.any() {
-            snapshots.advance(&mut play, self.times.last()).map_err(located)?;
+            let played = snapshots.advance(&mut play, self.times.last());
+            played.map_err(|error| self.script.located_event(error))?;
         }
         Ok(still)
     }
@@ -277,13 +277,12 @@ impl Summary {
     /// The world of single pictures.
     pub(super) fn of(world: &World, size: (usize, usize), backend: &str) -> Self {
         let tally = world.tally();
-        let particles = |volume: &Volume| volume.vertices().len();
         Self {
             size,
             backend: backend.to_owned(),
             seconds: world.seconds(),
             volumes: world.volumes().len(),
-            particles: world.volumes().iter().map(particles).sum(),
+            particles: world.volumes().iter().map(|volume| volume.vertices().len()).sum(),
             cells: world.grid().cells.len(),
             paint_mm3: [tally.on_scene, tally.lifted, tally.in_tube]
                 .map(|amounts: [u64; 9]| amounts.iter().sum::<u64>() as f64 * world.quantum_mm3()),

@@ -189,8 +189,9 @@ impl OpenScript {
     ) -> Result<Scene> {
         let subject = self.subject(path)?;
         // Before a path of the script a photograph is seen as the studio shows it.
-        let is_path = |camera: &CameraTable| matches!(camera.camera(frames), ScriptCamera::Path(_));
-        let free = !options.has_camera() && self.script.camera.as_ref().is_some_and(is_path);
+        let camera = self.script.camera.as_ref().filter(|_| !options.has_camera());
+        let free =
+            camera.is_some_and(|camera| matches!(camera.camera(frames), ScriptCamera::Path(_)));
         let views = if free { PictureViews::Free } else { PictureViews::Turned };
         let (read, mut inputs) = options.without_camera().subject(&subject, views)?;
         if self.file.is_some() {
@@ -364,9 +365,9 @@ impl Times {
                 "leave it out for the end, or give more --seconds",
             ));
         }
-        let step = |seconds: f64| u64::from(steps_of(seconds));
-        let frames = (0..frames).map(|frame| step((frame as f64 / rate).min(seconds)));
-        Ok(Self { still: step(at), frames: frames.collect() })
+        let frames =
+            (0..frames).map(|frame| u64::from(steps_of((frame as f64 / rate).min(seconds))));
+        Ok(Self { still: u64::from(steps_of(at)), frames: frames.collect() })
     }
 
     /// Number of frames of a script at `rate` frames a second.
