@@ -184,8 +184,6 @@ pub fn chosen_film(
         let errors: Vec<f64> = errors.into_iter().flatten().collect();
         Ok(errors.iter().sum::<f64>() / errors.len() as f64)
     };
-    let with =
-        |k2: f64, unevenness: f64| UnevenFilm { surface: Surface { k2, ..surface }, unevenness };
     // The best of the models replaces the current one if it gains 3 %.
     let replaced = |kept: (f64, UnevenFilm), models: [UnevenFilm; 2]| {
         let mut best = (LEAST_GAIN * kept.0, None);
@@ -197,9 +195,10 @@ pub fn chosen_film(
         }
         Ok::<_, FitError>(best.1.map_or(kept, |model| (best.0, model)))
     };
-    let kept = replaced((score(plain)?, plain), [with(0.3, 0.0), with(0.6, 0.0)])?;
-    let k2 = kept.1.surface.k2;
-    Ok(replaced(kept, [with(k2, 0.25), with(k2, 0.5)])?.1)
+    let even = [0.3, 0.6].map(|k2| UnevenFilm { surface: Surface { k2, ..surface }, ..plain });
+    let kept = replaced((score(plain)?, plain), even)?;
+    let surface = kept.1.surface;
+    Ok(replaced(kept, [0.25, 0.5].map(|unevenness| UnevenFilm { surface, unevenness }))?.1)
 }
 
 /// Number of fits that [`chosen_film`] makes: five models with five folds each.

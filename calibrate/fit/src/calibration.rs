@@ -105,22 +105,22 @@ impl Solution {
 
 /// A fitted pigment with its values rounded for a file.
 pub(crate) fn pigment(name: &str, curves: &Curves, deviations: Option<&Curves>) -> Pigment {
-    let rounded = |curve: &[f64]| -> Vec<f64> { curve.iter().map(|&v| rounded(v)).collect() };
-    let deviation = |curve: fn(&Curves) -> &[f64]| {
-        deviations.map_or_else(Vec::new, |curves| rounded(curve(curves)))
-    };
     Pigment {
         name: name.to_owned(),
         color_index: None,
-        absorption: rounded(&curves.absorption),
-        scattering: rounded(&curves.scattering),
-        absorption_sd: deviation(|curves| &curves.absorption),
-        scattering_sd: deviation(|curves| &curves.scattering),
+        absorption: rounded_values(&curves.absorption),
+        scattering: rounded_values(&curves.scattering),
+        absorption_sd: deviations.map_or_else(Vec::new, |sd| rounded_values(&sd.absorption)),
+        scattering_sd: deviations.map_or_else(Vec::new, |sd| rounded_values(&sd.scattering)),
         identified: true,
         guessed: false,
         measured_amounts: None,
         notes: Vec::new(),
     }
+}
+
+fn rounded_values(curve: &[f64]) -> Vec<f64> {
+    curve.iter().map(|&value| rounded(value)).collect()
 }
 
 pub(crate) fn solve(
@@ -129,23 +129,20 @@ pub(crate) fn solve(
     how: Refinement,
     task: &Task,
 ) -> Result<Solution, FitError> {
-    let plain = |curves: Vec<Curves>| Solution {
-        deviations: how.deviations.then(|| linear_deviations(problem, &curves)),
-        curves,
-        state: None,
-    };
-    Ok(match method {
-        Method::Qp => plain(fit_qp(problem, task)?),
-        Method::Weighted => plain(fit_weighted(problem, task)?),
+    let curves = match method {
+        Method::Qp => fit_qp(problem, task)?,
+        Method::Weighted => fit_weighted(problem, task)?,
         Method::Refined => {
             // K and S must not depend on the light under which you compute errors.
             let weights =
                 Viewing::default().weights(problem.grid).expect("the method fits the grid");
             let Refined { curves, deviations, state, .. } =
                 fit_refined(problem, &weights, how, task)?;
-            Solution { curves, deviations, state: Some(state) }
+            return Ok(Solution { curves, deviations, state: Some(state) });
         }
-    })
+    };
+    let deviations = how.deviations.then(|| linear_deviations(problem, &curves));
+    Ok(Solution { curves, deviations, state: None })
 }
 
 /// Observations of identified pigments only. We reduce their shares to these pigments, and return the
@@ -175,7 +172,7 @@ fn masstone(set: &SwatchSet, observations: &[Observation], lone: &Unidentified) 
     Pigment {
         name: set.pigments[lone.pigment.index()].clone(),
         color_index: None,
-        absorption: sample.ratio.iter().map(|&v| rounded(v)).collect(),
+        absorption: rounded_values(&sample.ratio),
         scattering: vec![1.0; sample.ratio.len()],
         absorption_sd: Vec::new(),
         scattering_sd: Vec::new(),

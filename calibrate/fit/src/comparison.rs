@@ -66,8 +66,9 @@ impl Comparison {
         if palette.library().amounts == AmountKind::Absolute {
             return Vec::new();
         }
-        let known = |recipe: &Recipe| recipe.pigments().all(|p| palette.paints().contains(&p));
-        let films = self.films.iter().filter(|film| !film.excluded && known(&film.recipe));
+        let films = self.films.iter().filter(|film| {
+            !film.excluded && film.recipe.pigments().all(|p| palette.paints().contains(&p))
+        });
         films
             .map(|film: &ComparedFilm| MeasuredSample {
                 sample: film.sample.clone(),
@@ -97,14 +98,10 @@ impl Comparable {
     /// # Errors
     /// [`ComparisonError`] if there is none, or if the readings do not cover the library's wavelengths.
     pub fn of(set: &SwatchSet, library: &PigmentLibrary) -> Result<Self, ComparisonError> {
-        let find = |name: &String| {
-            let lower = name.to_lowercase();
-            let exact = library.ids().find(|id| library[*id].name == *name);
-            exact.or_else(|| library.ids().find(|id| library[*id].name.to_lowercase() == lower))
-        };
         let lacking = |swatch: &Swatch| -> Vec<String> {
             let used = set.pigments.iter().zip(&swatch.amounts).filter(|(_, a)| **a > 0.0);
-            used.filter(|(name, _)| find(name).is_none()).map(|(name, _)| name.clone()).collect()
+            let lacking = used.filter(|(name, _)| named(library, name).is_none());
+            lacking.map(|(name, _)| name.clone()).collect()
         };
         let absent = set.swatches.iter().map(|s| (s.sample.clone(), lacking(s)));
         let absent: Vec<_> = absent.filter(|(_, pigments)| !pigments.is_empty()).collect();
@@ -122,7 +119,7 @@ impl Comparable {
         if !(same || covered) {
             return Err(ComparisonError::Band { readings: from, library: to });
         }
-        let in_library = kept.pigments.iter().filter_map(find).collect();
+        let in_library = kept.pigments.iter().filter_map(|name| named(library, name)).collect();
         let resampled_from = (!same).then_some(from);
         let set = if same { kept } else { resampled(kept, to)? };
         Ok(Self { set, in_library, absent, resampled_from })
@@ -241,12 +238,12 @@ impl Comparable {
         let settings = settings(library);
         let set = self.fitted_again(library);
         let quiet = task.quiet();
-        let plan =
-            |state, folds| ValidationPlan { settings: &settings, viewing, state, folds, task };
+        let plan = ValidationPlan { settings: &settings, viewing, state: None, folds: None, task };
         if library.amounts == AmountKind::Absolute {
             let film = library.film();
             let state = calibrate_absolute(&set, film, &settings, viewing, &quiet)?.state;
-            return leave_out_films(&set, film, &plan(state, Some(DEFAULT_FOLDS))).map(Some);
+            let plan = ValidationPlan { state, folds: Some(DEFAULT_FOLDS), ..plan };
+            return leave_out_films(&set, film, &plan).map(Some);
         }
         let Some(reference) = library
             .reference
@@ -257,7 +254,8 @@ impl Comparable {
         };
         let surface: Surface = library.saunderson;
         let state = calibrate(&set, reference, surface, &settings, viewing, &quiet)?.state;
-        leave_out(&set, reference, surface, &plan(state, None), |_| true).map(Some)
+        let plan = ValidationPlan { state, ..plan };
+        leave_out(&set, reference, surface, &plan, |_| true).map(Some)
     }
 
     /// The samples that the library's fit used, with pigments named as in the library.
@@ -284,6 +282,13 @@ fn film(
     excluded: bool,
 ) -> ComparedFilm {
     ComparedFilm { sample, recipe, measured, predicted, delta_e: 0.0, unsure: false, excluded }
+}
+
+/// The pigment of `library` with this name, otherwise the first with it in other letter case.
+fn named(library: &PigmentLibrary, name: &str) -> Option<PigmentId> {
+    let lower = name.to_lowercase();
+    let exact = library.ids().find(|id| library[*id].name == name);
+    exact.or_else(|| library.ids().find(|id| library[*id].name.to_lowercase() == lower))
 }
 
 /// Resamples every reading of `set` to `grid`, which its own grid covers.

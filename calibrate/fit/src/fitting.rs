@@ -266,12 +266,14 @@ fn reference(set: &SwatchSet, name: Option<&str>) -> Result<PigmentId, FittingEr
     if let Some(name) = name {
         return index_of(&set.pigments, name, "pigment").map(PigmentId);
     }
-    let samples = |index: usize| set.swatches.iter().filter(|s| s.amounts[index] > 0.0).count();
     let whites: Vec<usize> = (0..set.pigments.len())
         .filter(|&index: &usize| set.pigments[index].to_lowercase().contains("white"))
         .collect();
     // If several occur in equally many samples, we choose the first column.
-    let commonest = whites.into_iter().rev().max_by_key(|&index| samples(index));
+    let commonest = whites
+        .into_iter()
+        .rev()
+        .max_by_key(|&index| set.swatches.iter().filter(|s| s.amounts[index] > 0.0).count());
     commonest.map(PigmentId).ok_or_else(|| FittingError::NoWhite {
         first: set.pigments.first().cloned().unwrap_or_default(),
     })
@@ -313,11 +315,12 @@ fn remarks(films: &[Observation], condition: Option<&Condition>) -> Vec<Remark> 
             counted(films.len(), "film")
         )));
     }
-    let spreads = || films.iter().filter_map(|o| Some((o.spread?, &o.sample)));
-    if let Some((largest, sample)) = spreads().max_by(|a, b| a.0.total_cmp(&b.0)) {
+    let spreads = films.iter().filter_map(|o| Some((o.spread?, &o.sample)));
+    let spreads: Vec<(f64, &String)> = spreads.collect();
+    if let Some((largest, sample)) = spreads.iter().max_by(|a, b| a.0.total_cmp(&b.0)) {
         remarks.push(Remark::note(format!(
             "repeated readings of {} averaged; they spread by {largest:.4} at most ({sample})",
-            counted(spreads().count(), "sample")
+            counted(spreads.len(), "sample")
         )));
     }
     if let Some(c) = condition {
@@ -396,11 +399,11 @@ pub(crate) fn check_above_surface(
     let mut count = 0;
     let mut first = None;
     for swatch in &set.swatches {
-        let readings = || swatch.films.iter().flat_map(|film| &film.reflectance);
-        let dark = readings().filter(|&&reading| reading < k1).count();
+        let readings = swatch.films.iter().flat_map(|film| &film.reflectance);
+        let dark = readings.filter(|&&reading| reading < k1).count();
         first = first.or_else(|| (dark > 0).then_some(swatch));
         below += dark;
-        count += readings().count();
+        count += swatch.films.iter().map(|film| film.reflectance.len()).sum::<usize>();
     }
     match first {
         Some(swatch) if 2 * below > count => Err(MeasurementError::MostBelowSurface {

@@ -112,7 +112,7 @@ impl SurfaceConversion<'_> {
         swatch: &Swatch,
         measured: &[f64],
     ) -> Result<Vec<f64>, MeasurementError> {
-        let at = |(index, &value): (usize, &f64)| {
+        let internal = measured.iter().enumerate().map(|(index, &value)| {
             let internal = match self.surface.internal_from_measured(value) {
                 Ok(internal) => internal.max(BLACK),
                 Err(SurfaceError::BelowFloor { .. }) if self.below == BelowSurface::Floor => BLACK,
@@ -140,8 +140,8 @@ impl SurfaceConversion<'_> {
             }
             // Slightly above white is an error of the instrument's tile, not of the paint.
             Ok(internal.min(1.0))
-        };
-        measured.iter().enumerate().map(at).collect()
+        });
+        internal.collect()
     }
 
     fn is_below(&self, reading: f64) -> bool {
@@ -322,15 +322,15 @@ fn fault(set: &SwatchSet, swatch: &Swatch) -> Option<DarkerFilm> {
         .filter(|(bright, dark)| alike(bright.thickness_mm, dark.thickness_mm))
         .map(|(bright, dark)| (bright, dark, darker(bright, dark)))
         .find(|(_, _, places)| !places.is_empty())?;
-    let by = |&at: &usize| dark.reflectance[at] - bright.reflectance[at];
-    let worst = places.iter().copied().max_by(|a, b| by(a).total_cmp(&by(b)))?;
+    let steps = places.iter().map(|&at| (at, dark.reflectance[at] - bright.reflectance[at]));
+    let (worst, by) = steps.max_by(|a, b| a.1.total_cmp(&b.1))?;
     Some(DarkerFilm {
         file: swatch.file.to_string(),
         row: swatch.row,
         sample: swatch.sample.clone(),
         bright: bright.backing.clone(),
         dark: dark.backing.clone(),
-        by: by(&worst),
+        by,
         nm: set.grid.nm(worst),
         band_nm: [places[0], places[places.len() - 1]].map(|at| set.grid.nm(at)),
         others: 0,

@@ -341,9 +341,8 @@ pub fn shares_of_squares(per_sample: &[SampleEvidence]) -> Vec<(&str, f64)> {
     if total <= 0.0 {
         return Vec::new();
     }
-    let share = |s: &'_ SampleEvidence| s.delta_e * s.delta_e / total;
-    let mut shares: Vec<(&str, f64)> =
-        per_sample.iter().map(|s| (s.sample.as_str(), share(s))).collect();
+    let shares = per_sample.iter().map(|s| (s.sample.as_str(), s.delta_e * s.delta_e / total));
+    let mut shares: Vec<(&str, f64)> = shares.collect();
     shares.sort_by(|a, b| b.1.total_cmp(&a.1));
     shares
 }

@@ -187,24 +187,20 @@ impl Residuals {
             return Ok(self.clone());
         }
         let method = Interpolation::best_for(self.grid);
-        let outside = || ResidualsError::Wavelengths { found: self.grid, needed: grid };
-        let resampled = |values: &[f64]| -> Result<Vec<f64>, ResidualsError> {
-            let spectrum = Spectrum::<Reflectance>::new(self.grid, values.to_vec());
-            let spectrum = spectrum.map_err(|_| outside())?;
-            let resampled = spectrum.resampled(grid, method, Extrapolation::Refuse);
-            Ok(resampled.map_err(|_| outside())?.into_values())
+        let resampled = |values: &[f64]| -> Option<Vec<f64>> {
+            let spectrum = Spectrum::<Reflectance>::new(self.grid, values.to_vec()).ok()?;
+            Some(spectrum.resampled(grid, method, Extrapolation::Refuse).ok()?.into_values())
         };
-        let mixtures = self
-            .mixtures
-            .iter()
-            .map(|mixture: &LeftOutMixture| -> Result<LeftOutMixture, ResidualsError> {
-                Ok(LeftOutMixture {
-                    measured: resampled(&mixture.measured)?,
-                    predicted: resampled(&mixture.predicted)?,
-                    ..mixture.clone()
-                })
+        let mixtures = self.mixtures.iter().map(|mixture: &LeftOutMixture| {
+            Some(LeftOutMixture {
+                measured: resampled(&mixture.measured)?,
+                predicted: resampled(&mixture.predicted)?,
+                ..mixture.clone()
             })
-            .collect::<Result<_, _>>()?;
+        });
+        let mixtures: Option<Vec<LeftOutMixture>> = mixtures.collect();
+        let outside = ResidualsError::Wavelengths { found: self.grid, needed: grid };
+        let mixtures = mixtures.ok_or(outside)?;
         Ok(Self { grid, mixtures, ..self.clone() })
     }
 }

@@ -266,9 +266,9 @@ fn bare_backings(set: &SwatchSet) -> Vec<Vec<f64>> {
                 .filter(|film| film.backing == name)
                 .filter_map(|film| film.bare.as_deref())
                 .collect();
-            let sum = |at: usize| bare.iter().map(|card| card[at]).sum::<f64>();
-            let values = (0..set.grid.count()).map(|at| sum(at) / bare.len() as f64).collect();
-            (!bare.is_empty()).then_some(values)
+            let means = (0..set.grid.count())
+                .map(|at| bare.iter().map(|card| card[at]).sum::<f64>() / bare.len() as f64);
+            (!bare.is_empty()).then(|| means.collect())
         })
         .collect()
 }

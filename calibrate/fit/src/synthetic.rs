@@ -59,12 +59,12 @@ impl SyntheticMixtures {
             Self { grid, surface, curves, truth: Vec::new(), observations: Vec::new() };
         for (number, shares) in observations.into_iter().enumerate() {
             let truth = mixtures.predicted(&mixtures.curves, &shares);
-            let read = |value: &f64| {
+            let ratio = truth.iter().map(|value: &f64| {
                 let error: f64 = StandardNormal.sample(&mut random);
                 let internal = surface.internal_from_measured(value + noise * error);
                 absorption_over_scattering(internal.unwrap_or(BLACK).clamp(BLACK, 1.0))
-            };
-            let ratio: Vec<f64> = truth.iter().map(read).collect();
+            });
+            let ratio: Vec<f64> = ratio.collect();
             let reflectance: Vec<f64> = ratio
                 .iter()
                 .map(|q: &f64| {
@@ -133,15 +133,11 @@ fn curve(random: &mut ChaCha8Rng, grid: Grid, level: (f64, f64), bumps: usize) -
 
 /// Shares of masstones, tints with pigment 0, and random mixtures.
 fn recipes(random: &mut ChaCha8Rng, pigments: usize, count: usize) -> Vec<Vec<f64>> {
-    let with = |parts: &[(usize, f64)]| {
-        let mut shares = vec![0.0; pigments];
-        parts.iter().for_each(|&(pigment, share)| shares[pigment] = share);
-        shares
-    };
-    let mut recipes: Vec<Vec<f64>> = (0..pigments).map(|p| with(&[(p, 1.0)])).collect();
+    let mut recipes: Vec<Vec<f64>> =
+        (0..pigments).map(|p| shares_of(pigments, &[(p, 1.0)])).collect();
     for pigment in 1..pigments {
-        recipes.push(with(&[(0, 0.9), (pigment, 0.1)]));
-        recipes.push(with(&[(0, 0.6), (pigment, 0.4)]));
+        recipes.push(shares_of(pigments, &[(0, 0.9), (pigment, 0.1)]));
+        recipes.push(shares_of(pigments, &[(0, 0.6), (pigment, 0.4)]));
     }
     while recipes.len() < count {
         let number = random.random_range(2..=3);
@@ -151,8 +147,14 @@ fn recipes(random: &mut ChaCha8Rng, pigments: usize, count: usize) -> Vec<Vec<f6
             .collect();
         let total: f64 = parts.iter().map(|(_, part)| part).sum();
         let shares: Vec<(usize, f64)> = parts.iter().map(|&(p, part)| (p, part / total)).collect();
-        recipes.push(with(&shares));
+        recipes.push(shares_of(pigments, &shares));
     }
     recipes.truncate(count);
     recipes
+}
+
+fn shares_of(pigments: usize, parts: &[(usize, f64)]) -> Vec<f64> {
+    let mut shares = vec![0.0; pigments];
+    parts.iter().for_each(|&(pigment, share)| shares[pigment] = share);
+    shares
 }

@@ -135,27 +135,25 @@ pub fn leave_out(
     let candidates: Vec<usize> = refits.mixtures().filter(|&i| chosen(&observations[i])).collect();
     let weights = plan.viewing.weights(set.grid).expect("the method fits the grid");
     let left_out = plan.task.steps_of(LEFT_OUT, candidates.len());
-    let predict = |group: &Vec<usize>| -> Result<Vec<Prediction>, CalibrationError> {
+    let predictions = plan.predictions(&candidates, |group| {
         let refit = refits.without(group)?;
         let predictions = group.iter().map(|&index| {
             left_out.step();
             let target = &observations[index];
-            let film = |strength: f64| refit.film(target, surface, strength);
             Prediction {
                 index,
                 predicted: refit.identifies(target).then(|| {
-                    (
-                        film(1.0),
-                        Some(least_error(|strength: f64| {
-                            delta_e(&weights, &target.as_read, &film(strength))
-                        })),
-                    )
+                    let film = refit.film(target, surface, 1.0);
+                    let best = least_error(|strength: f64| {
+                        let film = refit.film(target, surface, strength);
+                        delta_e(&weights, &target.as_read, &film)
+                    });
+                    (film, Some(best))
                 }),
             }
         });
         Ok(predictions.collect())
-    };
-    let predictions = plan.predictions(&candidates, predict)?;
+    })?;
     let found = predictions.iter().filter_map(|prediction| {
         Some((&observations[prediction.index], &prediction.predicted.as_ref()?.0))
     });
@@ -247,7 +245,7 @@ pub fn leave_out_films(
     let how = Refinement::prediction(plan.settings.smoothness, plan.state);
     let task = plan.task.quiet();
     let left_out = plan.task.steps_of(LEFT_OUT, candidates.len());
-    let predict = |group: &Vec<usize>| -> Result<Vec<Prediction>, CalibrationError> {
+    let predictions = plan.predictions(&candidates, |group| {
         let part = problem.with_films(&all_but(count, group));
         let fit = fit_finite(&part, film, &weights, how, &task)?;
         let predictions = group.iter().map(|&index| {
@@ -255,8 +253,7 @@ pub fn leave_out_films(
             Prediction { index, predicted: Some((problem.predicted(&fit, film, index), None)) }
         });
         Ok(predictions.collect())
-    };
-    let predictions = plan.predictions(&candidates, predict)?;
+    })?;
     Ok(summary(set, plan, predictions, |index: usize| {
         (problem.films[index].name.clone(), problem.films[index].reflectance.as_slice())
     }))
@@ -351,12 +348,13 @@ impl Refits<'_> {
 
     /// Library of a fit of this set. Title, licence, source and evidence are empty.
     pub(crate) fn library(&self, refit: &Refit) -> PigmentLibrary {
-        let name = |id: PigmentId| self.set.pigments[id.index()].clone();
+        let names = &self.set.pigments;
         let pigments = refit.identified.iter().zip(&refit.curves);
+        let pigments = pigments.map(|(id, curves)| pigment(&names[id.index()], curves, None));
         PigmentLibrary {
-            reference: Some(name(self.reference)),
+            reference: Some(names[self.reference.index()].clone()),
             settings: Some(self.settings.clone()),
-            pigments: pigments.map(|(&id, curves)| pigment(&name(id), curves, None)).collect(),
+            pigments: pigments.collect(),
             ..PigmentLibrary::empty(self.set.grid, self.surface)
         }
     }
@@ -588,7 +586,7 @@ impl PreparedFit {
         let refits = plan.refits(set, &observations, reference, surface);
         let mixtures: Vec<usize> = refits.mixtures().collect();
         let steps = task.steps_of(LEFT_OUT, mixtures.len());
-        let left_out = |&index: &usize| -> Result<Option<LeftOut>, FittingError> {
+        let found = mixtures.par_iter().map(|&index| -> Result<Option<LeftOut>, FittingError> {
             let target = &observations[index];
             let refit = refits.without(&[index]);
             steps.step();
@@ -602,8 +600,8 @@ impl PreparedFit {
                 mixture: left_out_mixture(set, target, &refit.film(target, surface, 1.0)),
                 library: refits.library(&refit),
             }))
-        };
-        let found = mixtures.par_iter().map(left_out).collect::<Result<Vec<_>, _>>()?;
+        });
+        let found = found.collect::<Result<Vec<_>, _>>()?;
         Ok(found.into_iter().flatten().collect())
     }
 

@@ -28,8 +28,9 @@ fn device() -> Option<Device> {
 fn paint(width: usize, height: usize) -> Layer {
     let mut layer = Layer::empty(width, height);
     for i in 0..width * height {
-        let amount = |slot: usize| (i * 7919 + slot * 104_729) as u32 % 60_000;
-        layer.set_cell(i, Cell { pigments: std::array::from_fn(amount), vehicle: amount(8) });
+        let [pigments @ .., vehicle]: [u32; SLOTS + 1] =
+            std::array::from_fn(|slot| (i * 7919 + slot * 104_729) as u32 % 60_000);
+        layer.set_cell(i, Cell { pigments, vehicle });
     }
     layer
 }

@@ -42,7 +42,8 @@ fn painting(width: usize, height: usize) -> (Document, Scene) {
     let library = library();
     let light = Light::new(&library, &Viewing::default()).expect("eight wavelengths of D65");
     let slots = std::array::from_fn(|slot| Some(PigmentId(slot)));
-    let dry = |id| DryLayer::new(LayerId(id), slots, layer(width, height, u64::from(id)));
+    let dry =
+        [1, 2].map(|id| DryLayer::new(LayerId(id), slots, layer(width, height, u64::from(id))));
     let document = Document {
         title: String::new(),
         cell_mm: 0.1,
@@ -54,7 +55,7 @@ fn painting(width: usize, height: usize) -> (Document, Scene) {
         },
         library,
         medium: Medium::default(),
-        dry: vec![dry(1), dry(2)],
+        dry: dry.into(),
         next_layer: LayerId(3),
         slots,
         wet: layer(width, height, 3),

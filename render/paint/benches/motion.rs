@@ -49,8 +49,8 @@ fn engine() -> (PaintEngine, BrushId) {
 fn contact(size: usize, x: usize, whole: bool) -> Contact {
     let radius = size as f64 / 2.0;
     let touches = (0..size * size).map(|i| {
-        let from_centre = |at: usize| (at as f64 + 0.5 - radius) / radius;
-        let r2 = from_centre(i % size).powi(2) + from_centre(i / size).powi(2);
+        let [right, down] = [i % size, i / size].map(|at| (at as f64 + 0.5 - radius) / radius);
+        let r2 = right.powi(2) + down.powi(2);
         if r2 > 1.0 && !whole {
             return Touch::NONE;
         }

@@ -123,12 +123,10 @@ mod tests {
         }
         let random = &mut ChaCha8Rng::seed_from_u64(1);
         for _ in 0..200_000 {
-            let mut number = || {
+            let [a, b]: [u32; 2] = std::array::from_fn(|_| {
                 let most = MAX_COLUMN >> random.random_range(0..30);
                 random.random_range(1..=most)
-            };
-            let a = number();
-            let b = number();
+            });
             for amount in [a, a / b * b, (a / b * b).saturating_sub(1)] {
                 assert_eq!(quotient(amount, b), amount / b, "{amount} / {b}");
                 let part = amount.min(b);

@@ -224,11 +224,11 @@ mod tests {
         let mut row = [BACKINGS; 3];
         composite_row(&all, &[[0; SLOTS], amounts, [0; SLOTS]], &mut row);
         for i in 0..NODES {
-            let sum = |table: &[[f32; NODES]; SLOTS]| -> f64 {
-                amounts.iter().zip(table).map(|(&a, row)| f64::from(a) * f64::from(row[i])).sum()
-            };
-            let exact = Layer::new(sum(&all.absorption), sum(&all.scattering), 1.0)
-                .over(f64::from(BACKINGS[i]));
+            let [k, s] = [&all.absorption, &all.scattering].map(|table| {
+                let parts = amounts.iter().zip(table);
+                parts.map(|(&a, row)| f64::from(a) * f64::from(row[i])).sum::<f64>()
+            });
+            let exact = Layer::new(k, s, 1.0).over(f64::from(BACKINGS[i]));
             assert!((f64::from(row[1][i]) - exact).abs() < 1e-6, "{i}: {} {exact}", row[1][i]);
         }
     }

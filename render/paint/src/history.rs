@@ -466,7 +466,7 @@ mod tests {
     use super::{CommitOutcome, History, TILE_BYTES};
     use crate::contact::{Contact, ExchangeRates, Touch, Wicking};
     use crate::engine::{BrushId, PaintEngine};
-    use crate::layer::{Cell, Layer};
+    use crate::layer::{Cell, Layer, SLOTS};
     use crate::motion::MotionConstants;
     use graphics::field::Field;
     use graphics::tile::Rect;
@@ -490,9 +490,9 @@ mod tests {
     fn painted(width: usize, height: usize, random: &mut ChaCha8Rng) -> Layer {
         let mut layer = Layer::empty(width, height);
         for index in 0..width * height {
-            let mut amount = || random.random_range(0..400_000);
-            let pigments = std::array::from_fn(|_| amount());
-            layer.set_cell(index, Cell { pigments, vehicle: amount() });
+            let [pigments @ .., vehicle]: [u32; SLOTS + 1] =
+                std::array::from_fn(|_| random.random_range(0..400_000));
+            layer.set_cell(index, Cell { pigments, vehicle });
         }
         layer
     }

@@ -52,11 +52,10 @@ impl KeptQuadratures {
         viewing: &Viewing,
         fit: impl FnOnce() -> Result<EffectiveQuadrature, QuadratureFailure>,
     ) -> Result<EffectiveQuadrature, QuadratureFailure> {
-        let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let place = |kept: &[Kept]| {
             kept.iter().position(|one| one.viewing == *viewing && one.library == *library)
         };
-        let mut kept = lock();
+        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(place) = place(&kept) {
             let used = kept.remove(place);
             let quadrature = used.quadrature.clone();
@@ -67,7 +66,7 @@ impl KeptQuadratures {
         // lock.
         drop(kept);
         let quadrature = fit()?;
-        let mut kept = lock();
+        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if place(&kept).is_none() {
             let library = library.clone();
             let viewing = viewing.clone();
@@ -193,15 +192,16 @@ impl Mixer {
     ) -> Result<Self, RecipeError> {
         let first = library.parts(first)?;
         let second = library.parts(second)?;
-        let [k_first, s_first] = light.quadrature.mixed(&first);
-        let [k_second, s_second] = light.quadrature.mixed(&second);
-        let pair = |first: &[f64], second: &[f64]| {
-            let more: Vec<f64> = second.iter().zip(first).map(|(b, a)| b - a).collect();
-            [scaled(first, 1.0), scaled(&more, 1.0)]
-        };
+        let first = light.quadrature.mixed(&first);
+        let second = light.quadrature.mixed(&second);
+        let [absorption, scattering] = [0, 1].map(|part| {
+            let pairs = second[part].iter().zip(&first[part]);
+            let more: Vec<f64> = pairs.map(|(b, a)| b - a).collect();
+            [scaled(&first[part], 1.0), scaled(&more, 1.0)]
+        });
         Ok(Self {
-            absorption: pair(&k_first, &k_second),
-            scattering: pair(&s_first, &s_second),
+            absorption,
+            scattering,
             surface: scene_surface(&library.saunderson),
             rgb_from_nodes: light.rgb_from_nodes,
         })

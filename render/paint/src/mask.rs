@@ -165,11 +165,10 @@ mod tests {
         let all = [(-50.0, -50.0), (90.0, -50.0), (90.0, 90.0), (-50.0, 90.0)];
         assert_eq!(Mask::with_open_polygon(BOUNDS, &all).covered(), 0);
         // The middle of a five-pointed star, drawn in one line, is outside by the even-odd rule.
-        let point = |i: f64| {
+        let star = [0.0, 1.0, 2.0, 3.0, 4.0].map(|i: f64| {
             let (sin, cos) = (i * 4.0 * std::f64::consts::PI / 5.0).sin_cos();
             (15.0 + 5.4 * sin, 5.5 - 5.4 * cos)
-        };
-        let star: Vec<_> = (0..5).map(|i| point(f64::from(i))).collect();
+        });
         let star = open(&Mask::with_open_polygon(BOUNDS, &star));
         assert!(!star.contains(&(15, 5)) && star.contains(&(14, 2)), "{star:?}");
     }

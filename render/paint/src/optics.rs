@@ -124,16 +124,13 @@ pub fn layer_optics(
     thickness_per_quantum: f64,
     opacity: f64,
 ) -> LayerOptics {
-    let table = |curves: &[Vec<f64>]| {
+    let [absorption, scattering] = [&quadrature.absorption, &quadrature.scattering].map(|curves| {
         slots.map(|slot| match slot {
             Some(pigment) => scaled(&curves[pigment.index()], thickness_per_quantum * opacity),
             None => [0.0; NODES],
         })
-    };
-    LayerOptics {
-        absorption: table(&quadrature.absorption),
-        scattering: table(&quadrature.scattering),
-    }
+    });
+    LayerOptics { absorption, scattering }
 }
 
 /// Converts the surface of a library's films to f32.

@@ -416,7 +416,8 @@ impl SpectralStack {
         let Appearance { library, medium, cell_mm, .. } = *appearance;
         let thickness = thickness_per_quantum(cell_mm, medium.scattering_per_mm);
         let ground = ground_at(internal_ground(library, &appearance.ground.reflectance));
-        let optics = |slots: &Slots, opacity: f64| {
+        let layers = appearance.dry.iter().map(|(slots, opacity)| (slots, *opacity));
+        let optics = layers.chain([(appearance.slots, 1.0)]).map(|(slots, opacity)| {
             let mut optics = vec![[[0.0; 2]; SLOTS]; ground.len()];
             for (slot, pigment) in slots.iter().enumerate() {
                 let Some(pigment) = *pigment else { continue };
@@ -427,9 +428,8 @@ impl SpectralStack {
                 }
             }
             optics
-        };
-        let dry = appearance.dry.iter().map(|(slots, opacity)| optics(slots, *opacity));
-        let optics = dry.chain([optics(appearance.slots, 1.0)]).collect();
+        });
+        let optics = optics.collect();
         Self { surface: library.saunderson, ground, optics }
     }
 
@@ -475,8 +475,9 @@ impl SpectralStack {
         let mut rest = vec![1.0; self.count()];
         for (index, (amounts, optics)) in columns.iter().zip(&self.optics).enumerate().rev() {
             for (rest, optics) in rest.iter_mut().zip(optics) {
-                let sum = |part: usize| amounts.iter().zip(optics).map(|(a, o)| a * o[part]).sum();
-                let film = Film::new(sum(0), sum(1), 1.0);
+                let [k, s] = [0, 1]
+                    .map(|part| amounts.iter().zip(optics).map(|(a, o)| a * o[part]).sum::<f64>());
+                let film = Film::new(k, s, 1.0);
                 let passed = *rest * (film.over(1.0) - film.over(0.0)).clamp(0.0, 1.0);
                 parts[index + 1] += *rest - passed;
                 *rest = passed;
@@ -594,20 +595,18 @@ mod tests {
 
     #[test]
     fn azimuth_runs_clockwise_from_the_top() {
-        let towards = |azimuth_deg, elevation_deg| {
-            direction(&Lighting { azimuth_deg, elevation_deg, ..Lighting::default() })
-        };
-        for (azimuth, elevation, wanted) in [
+        for (azimuth_deg, elevation_deg, wanted) in [
             (0.0, 45.0, [0.0, -0.5f32.sqrt(), 0.5f32.sqrt()]),
             (90.0, 45.0, [0.5f32.sqrt(), 0.0, 0.5f32.sqrt()]),
             (315.0, 90.0, [0.0, 0.0, 1.0]),
         ] {
-            let found = towards(azimuth, elevation);
-            for (found, wanted) in found.iter().zip(wanted) {
-                assert!((found - wanted).abs() < 1e-6, "{azimuth} {elevation}: {found}");
+            let lighting = Lighting { azimuth_deg, elevation_deg, ..Lighting::default() };
+            for (found, wanted) in direction(&lighting).iter().zip(wanted) {
+                assert!((found - wanted).abs() < 1e-6, "{azimuth_deg} {elevation_deg}: {found}");
             }
         }
-        assert!(towards(0.0, 0.0)[2] > 0.01, "a lamp at the horizon stays above it");
+        let level = Lighting { azimuth_deg: 0.0, elevation_deg: 0.0, ..Lighting::default() };
+        assert!(direction(&level)[2] > 0.01, "a lamp at the horizon stays above it");
     }
 
     #[test]

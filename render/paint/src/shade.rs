@@ -187,10 +187,10 @@ impl ReliefLamp {
         let [x, y, z] = lamp.direction;
         let length = (x * x + y * y + (z + 1.0) * (z + 1.0)).sqrt();
         let halfway = [x, y, z + 1.0].map(|v| v / length);
-        let gloss = |gloss: Gloss| {
+        let gloss = [lamp.wet, lamp.dry, lamp.ground].map(|gloss: Gloss| {
             let strength = gloss.strength * (1.0 - lamp.ambient);
             (Gloss { strength, ..gloss }, halfway[2].powf(gloss.exponent))
-        };
+        });
         let tap = |direction: [f32; 2], mm: f32| {
             let offset = direction.map(|v| (v * cells(mm, scene.cell_mm)).round());
             let distance = offset[0].hypot(offset[1]).max(1.0);
@@ -213,7 +213,7 @@ impl ReliefLamp {
             halfway,
             ambient: lamp.ambient,
             slope: lamp.relief / (2.0 * QUANTA_PER_CELL as f32),
-            gloss: [lamp.wet, lamp.dry, lamp.ground].map(gloss),
+            gloss,
             shadow,
             around,
         }

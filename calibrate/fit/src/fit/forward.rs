@@ -273,10 +273,10 @@ pub fn condition(problem: &Problem, curves: &[Curves]) -> Condition {
         Condition { unknowns, rank: unknowns, number: 0.0, nm: problem.grid.start_nm() };
     for at in 0..data.layout.wavelengths {
         let normal = data.normal(&linear, at);
-        let lengths: Vec<f64> = (0..unknowns).map(|i| normal[(i, i)].sqrt()).collect();
-        let unit = |i: usize| if lengths[i] > 0.0 { lengths[i] } else { 1.0 };
+        let lengths = (0..unknowns).map(|i| normal[(i, i)].sqrt());
+        let units: Vec<f64> = lengths.map(|l| if l > 0.0 { l } else { 1.0 }).collect();
         let scaled =
-            DMatrix::from_fn(unknowns, unknowns, |i, j| normal[(i, j)] / (unit(i) * unit(j)));
+            DMatrix::from_fn(unknowns, unknowns, |i, j| normal[(i, j)] / (units[i] * units[j]));
         let eigenvalues = SymmetricEigen::new(scaled).eigenvalues;
         let largest = eigenvalues.max();
         let rank = eigenvalues.iter().filter(|&&v| v > ROUNDING * largest).count();
@@ -330,20 +330,16 @@ pub fn unidentified<'a>(
     let partners = |sample: usize, pigment: usize| {
         (0..pigments).filter(move |&other| other != pigment && shares[sample][other] > 0.0)
     };
-    let different = |samples: &[usize]| {
-        samples.iter().any(|&s| {
-            let pairs = shares[s].iter().zip(shares[samples[0]]);
-            pairs.map(|(a, b)| (a - b).abs()).sum::<f64>() > SAME_RECIPE
-        })
-    };
     let mut known = vec![false; pigments];
     known[reference.index()] = true;
     loop {
         let found = (0..pigments).filter(|&p| !known[p]).find(|&pigment| {
             let samples = holding(pigment);
-            !samples.is_empty()
-                && different(&samples)
-                && samples.iter().any(|&s| partners(s, pigment).any(|other| known[other]))
+            let differ = samples.iter().any(|&s| {
+                let pairs = shares[s].iter().zip(shares[samples[0]]);
+                pairs.map(|(a, b)| (a - b).abs()).sum::<f64>() > SAME_RECIPE
+            });
+            differ && samples.iter().any(|&s| partners(s, pigment).any(|other| known[other]))
         });
         match found {
             Some(pigment) => known[pigment] = true,

@@ -8,7 +8,7 @@ use documents::Task;
 use pigment::evaluate::percentile;
 use rayon::prelude::*;
 
-use super::banded::{Banded, BandedCholesky, ColumnsMut, Spare};
+use super::banded::{Banded, BandedCholesky, Spare};
 use super::forward::{ColorResidual, ColorTerm, Data, Forward, Linear};
 use super::problem::{LOWER, UPPER};
 
@@ -86,7 +86,7 @@ pub(super) fn robust(squared: f64, knee: f64) -> (f64, f64) {
 impl<F: Forward> Objective<'_, F> {
     pub(super) fn cost(&self, unknowns: &[f64]) -> f64 {
         let values = self.data.values(&self.data.layout.curves(unknowns));
-        let of_sample = |(index, row): (usize, &Vec<f64>)| {
+        let terms = values.par_iter().enumerate().map(|(index, row)| {
             let pairs = row.iter().zip(&self.data.roots[index]).zip(&self.weights[index]);
             let spectral = pairs.map(|((value, root), weight)| {
                 let residual = weight * (value.cbrt() - root);
@@ -97,8 +97,8 @@ impl<F: Forward> Objective<'_, F> {
                 color.strength * robust(difference * difference, color.knee).0
             });
             spectral.chain(color).collect::<Vec<f64>>()
-        };
-        let terms: Vec<Vec<f64>> = values.par_iter().enumerate().map(of_sample).collect();
+        });
+        let terms: Vec<Vec<f64>> = terms.collect();
         terms.iter().flatten().fold(self.prior_cost(unknowns), |cost, term| cost + term)
     }
 
@@ -123,14 +123,13 @@ impl<F: Forward> Objective<'_, F> {
         }
         local.diagonal = (0..layout.len()).map(|i| local.matrix.diagonal(i)).collect();
         if let Some(color) = &self.color {
-            let row = |(index, values): (usize, &Vec<f64>)| {
+            let rows = linear.values.par_iter().enumerate().map(|(index, values)| {
                 let row = color.term.linear(index, values);
                 let squared: f64 = row.residual.iter().map(|v| v * v).sum();
                 let (cost, share) = robust(squared, color.knee);
                 (row, color.strength * share, color.strength * cost)
-            };
-            let rows: Vec<_> = linear.values.par_iter().enumerate().map(row).collect();
-            for (row, weight, cost) in rows {
+            });
+            for (row, weight, cost) in rows.collect::<Vec<_>>() {
                 local.cost += cost;
                 local.color.push((row, weight));
             }
@@ -144,8 +143,9 @@ impl<F: Forward> Objective<'_, F> {
     /// wavelength and sample.
     fn add_spectral(&self, linear: &Linear, local: &mut Local) -> Vec<Vec<f64>> {
         let per = self.data.layout.per_wavelength();
-        let at_one = |(at, (gradient, mut matrix)): (usize, (&mut [f64], ColumnsMut<'_>))| {
-            let of_sample = |index: usize| {
+        let parts = local.gradient.par_chunks_mut(per).zip(local.matrix.by_columns(per));
+        let costs = parts.enumerate().map(|(at, (gradient, mut matrix))| {
+            let costs = (0..self.data.recipes.len()).map(|index| {
                 let places = self.data.places(index);
                 let value = linear.values[index][at];
                 let weight = self.weights[index][at];
@@ -164,11 +164,10 @@ impl<F: Forward> Objective<'_, F> {
                     }
                 }
                 cost
-            };
-            (0..self.data.recipes.len()).map(of_sample).collect()
-        };
-        let parts = local.gradient.par_chunks_mut(per).zip(local.matrix.by_columns(per));
-        parts.enumerate().map(at_one).collect()
+            });
+            costs.collect()
+        });
+        costs.collect()
     }
 
     /// Places and values of the gradient of one sample's spectral term, where it is not 0.
@@ -341,7 +340,7 @@ impl<F: Forward> Objective<'_, F> {
 
     fn add_color_product(&self, local: &Local, vector: &[f64], product: &mut [f64]) {
         let per = self.data.layout.per_wavelength();
-        let movement = |(index, (row, _)): (usize, &(ColorResidual, f64))| {
+        let moved = local.color.par_iter().enumerate().map(|(index, (row, _))| {
             let places = self.data.places(index);
             let slopes = local.slopes[index].chunks_exact(places.len());
             let mut moved = [0.0; 3];
@@ -353,8 +352,8 @@ impl<F: Forward> Objective<'_, F> {
                 }
             }
             moved
-        };
-        let moved: Vec<[f64; 3]> = local.color.par_iter().enumerate().map(movement).collect();
+        });
+        let moved: Vec<[f64; 3]> = moved.collect();
         product.par_chunks_mut(per).enumerate().for_each(|(at, product)| {
             for (index, ((row, weight), moved)) in local.color.iter().zip(&moved).enumerate() {
                 let places = self.data.places(index);
@@ -510,8 +509,11 @@ impl Noise {
     /// One over the standard deviation of each reading in measured reflectance, where both parts of the
     /// noise are known.
     pub(super) fn precision(&self, noise: ExpectedNoise) -> Vec<Vec<f64>> {
-        let sd = |slope: &f64| noise.constant.hypot(noise.even * self.median_slope / slope);
-        self.slope.iter().map(|row| row.iter().map(|slope| sd(slope).recip()).collect()).collect()
+        let rows = self.slope.iter().map(|row| {
+            let even = row.iter().map(|slope| noise.even * self.median_slope / slope);
+            even.map(|even| noise.constant.hypot(even).recip()).collect()
+        });
+        rows.collect()
     }
 
     /// Ratio of the two kinds of noise (constant over uniform) that makes the residuals of `values` most
@@ -524,7 +526,8 @@ impl Noise {
                 pairs.map(|((v, root), even)| even * (v.cbrt() - root)).collect()
             })
             .collect();
-        let score = |ratio: f64| {
+        let scores = (0..=RATIOS).into_par_iter().map(|i| {
+            let ratio = candidate(i);
             let mut sum = 0.0;
             let mut logs = 0.0;
             let mut count = 0.0;
@@ -534,9 +537,8 @@ impl Noise {
                 logs += sd.ln();
                 count += 1.0;
             }
-            count * (sum / count).max(f64::MIN_POSITIVE).ln() + logs
-        };
-        let scores = (0..=RATIOS).into_par_iter().map(|i| (score(candidate(i)), candidate(i)));
+            (count * (sum / count).max(f64::MIN_POSITIVE).ln() + logs, ratio)
+        });
         let scores: Vec<(f64, f64)> = scores.collect();
         let best =
             scores.into_iter().reduce(|best, next| if next.0 < best.0 { next } else { best });

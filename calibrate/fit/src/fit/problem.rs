@@ -74,13 +74,14 @@ impl Problem {
 
     /// Predicted measured reflectance of each mixture as a film that hides, by mixture and wavelength.
     pub(crate) fn predicted(&self, curves: &CurveTable) -> Vec<Vec<f64>> {
-        let film = |index: usize, at: usize| {
-            let (k, s) = self.mixed(curves, index, at);
-            self.surface.measured_from_internal(spectra::optics::infinite_film(k, s))
-        };
-        (0..self.recipes.len())
-            .map(|index| (0..self.grid.count()).map(|at| film(index, at)).collect())
-            .collect()
+        let films = (0..self.recipes.len()).map(|index| {
+            let film = (0..self.grid.count()).map(|at| {
+                let (k, s) = self.mixed(curves, index, at);
+                self.surface.measured_from_internal(spectra::optics::infinite_film(k, s))
+            });
+            film.collect()
+        });
+        films.collect()
     }
 }
 

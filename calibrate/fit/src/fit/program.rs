@@ -124,7 +124,6 @@ impl Program {
         let mut not_below_zero = CscMatrix::identity(unknowns);
         not_below_zero.negate();
         let settings = DefaultSettings { verbose: false, ..DefaultSettings::default() };
-        let failed = |status: String| FitError::Solver { nm, status };
         let mut solver = DefaultSolver::new(
             &quadratic,
             self.linear.as_slice(),
@@ -133,11 +132,11 @@ impl Program {
             &[NonnegativeConeT(unknowns)],
             settings,
         )
-        .map_err(|error| failed(error.to_string()))?;
+        .map_err(|error| FitError::Solver { nm, status: error.to_string() })?;
         solver.solve();
         // Almost solved means 1e-4 of the objective, far below the noise of any reading.
         if !matches!(solver.solution.status, SolverStatus::Solved | SolverStatus::AlmostSolved) {
-            return Err(failed(format!("{:?}", solver.solution.status)));
+            return Err(FitError::Solver { nm, status: format!("{:?}", solver.solution.status) });
         }
         Ok(self.unscaled(&solver.solution.x))
     }
@@ -183,12 +182,11 @@ pub fn fit_weighted(problem: &Problem, task: &Task) -> Result<Vec<Curves>, FitEr
 
 pub(super) fn weighted(problem: &Problem, task: &Task) -> Result<CurveTable, FitError> {
     let wavelengths = problem.grid.count();
-    let slope = |ratio: f64| {
-        let r = infinite_film_from_ratio(ratio).min(1.0 - 1e-9);
-        -infinite_film_slope(r) * problem.surface.measured_slope(r)
-    };
-    let slopes: Vec<Vec<f64>> =
-        problem.ratio.iter().map(|row| row.iter().map(|&q| slope(q)).collect()).collect();
+    let slopes = problem.ratio.iter().map(|row| {
+        let films = row.iter().map(|&ratio| infinite_film_from_ratio(ratio).min(1.0 - 1e-9));
+        films.map(|r| -infinite_film_slope(r) * problem.surface.measured_slope(r)).collect()
+    });
+    let slopes: Vec<Vec<f64>> = slopes.collect();
     let mut scattering = vec![vec![1.0f64; wavelengths]; problem.recipes.len()];
     let mut best: Option<(Vec<f64>, CurveTable)> = None;
     for round in 1..=ROUNDS {
@@ -251,13 +249,11 @@ mod tests {
             let program = Program::new(&problem, at, &weights);
             let Some(free) = program.solve_freely() else { continue };
             let solved = program.solve(problem.grid.nm(at)).unwrap();
-            let cost = |values: &[f64]| {
+            let [free, solved] = [free, solved].map(|values: Vec<f64>| {
                 let scaled = program.free.iter().map(|&i| values[i] / program.scale[i]);
                 let x = DVector::from_iterator(program.free.len(), scaled);
                 0.5 * x.dot(&(&program.quadratic * &x)) + program.linear.dot(&x)
-            };
-            let free = cost(&free);
-            let solved = cost(&solved);
+            });
             assert!(
                 (free - 1e-9..free + 1e-6).contains(&solved),
                 "wavelength {at}: {free} {solved}"

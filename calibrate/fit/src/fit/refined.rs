@@ -148,14 +148,14 @@ pub(super) fn refine<F: Forward>(
     let term = ColorTerm::new(weights, data.target);
     let noise = Noise::new(&term, data.target, data.reading_sd);
     let origin = layout.unknowns(start);
-    let fixed = |lambda: f64| lambda * (10.0 / grid.step_nm()).powi(3);
+    let per_step = (10.0 / grid.step_nm()).powi(3);
     let estimate = how.state.is_none();
     let mut state = how.state.unwrap_or(RefinedState {
         noise_ratio: 0.0,
         smoothness: match smoothness {
             Smoothness::None => 0.0,
-            Smoothness::Auto => fixed(FIRST_SMOOTHNESS),
-            Smoothness::Fixed(lambda) => fixed(lambda),
+            Smoothness::Auto => FIRST_SMOOTHNESS * per_step,
+            Smoothness::Fixed(lambda) => lambda * per_step,
         },
     });
     let mut unknowns = origin.clone();
@@ -299,8 +299,8 @@ pub(super) fn standard_deviations<F: Forward>(
         }
     }
     let of_logs = |place: usize, curve: &[f64]| -> Vec<f64> {
-        let sd = |at: usize| variances[at * per + place].sqrt();
-        curve.iter().enumerate().map(|(at, value)| value * sd(at)).collect()
+        let values = curve.iter().enumerate();
+        values.map(|(at, value)| value * variances[at * per + place].sqrt()).collect()
     };
     let absorption =
         curves.absorption.iter().enumerate().map(|(p, curve)| of_logs(p, curve)).collect();
@@ -366,21 +366,19 @@ pub(super) fn share_of_scattering_known<F: Forward>(
 ) -> Vec<f64> {
     let layout = objective.data.layout;
     let matrix = objective.local(unknowns).matrix;
-    let share = |pigment: usize, at: usize| {
-        let Some(place) = layout.scattering(pigment) else { return 1.0 };
-        let k = at * layout.per_wavelength() + pigment;
-        let s = at * layout.per_wavelength() + place;
-        let of_k = (matrix.diagonal(k) - objective.ridge(k)).max(f64::MIN_POSITIVE);
-        let of_s = matrix.diagonal(s) - objective.ridge(s);
-        let information = (of_s - matrix.at(s, k).powi(2) / of_k).max(0.0);
-        information / (information + objective.ridge(s))
-    };
-    (0..layout.pigments)
-        .map(|pigment| {
-            let shares: Vec<f64> = (0..layout.wavelengths).map(|at| share(pigment, at)).collect();
-            percentile(&shares, 50.0)
-        })
-        .collect()
+    let medians = (0..layout.pigments).map(|pigment| {
+        let shares = (0..layout.wavelengths).map(|at| {
+            let Some(place) = layout.scattering(pigment) else { return 1.0 };
+            let k = at * layout.per_wavelength() + pigment;
+            let s = at * layout.per_wavelength() + place;
+            let of_k = (matrix.diagonal(k) - objective.ridge(k)).max(f64::MIN_POSITIVE);
+            let of_s = matrix.diagonal(s) - objective.ridge(s);
+            let information = (of_s - matrix.at(s, k).powi(2) / of_k).max(0.0);
+            information / (information + objective.ridge(s))
+        });
+        percentile(&shares.collect::<Vec<f64>>(), 50.0)
+    });
+    medians.collect()
 }
 
 /// Standard deviations of K and S for a fit that has none of its own, by pigment and wavelength.
@@ -397,8 +395,8 @@ pub fn linear_deviations(problem: &Problem, curves: &[Curves]) -> Vec<Curves> {
     let linear = data.linear(&curves);
     let unknowns = layout.per_wavelength();
     let freedom = problem.recipes.len().saturating_sub(unknowns).max(1) as f64;
-    let zeros = || vec![vec![0.0; layout.wavelengths]; layout.pigments];
-    let mut deviations = CurveTable { absorption: zeros(), scattering: zeros() };
+    let zeros = vec![vec![0.0; layout.wavelengths]; layout.pigments];
+    let mut deviations = CurveTable { absorption: zeros.clone(), scattering: zeros };
     for at in 0..layout.wavelengths {
         let mut normal = data.normal(&linear, at);
         let pairs = linear.values.iter().zip(&problem.reflectance);
@@ -410,13 +408,14 @@ pub fn linear_deviations(problem: &Problem, curves: &[Curves]) -> Vec<Curves> {
             normal[(i, i)] += variance.max(f64::MIN_POSITIVE);
         }
         let Some(inverse) = normal.cholesky().map(|factor| factor.inverse()) else { continue };
-        let sd = |place: usize| (variance * inverse[(place, place)]).sqrt();
+        let sds: Vec<f64> =
+            (0..unknowns).map(|place| (variance * inverse[(place, place)]).sqrt()).collect();
         for (pigment, curve) in deviations.absorption.iter_mut().enumerate() {
-            curve[at] = curves.absorption[pigment][at] * sd(pigment);
+            curve[at] = curves.absorption[pigment][at] * sds[pigment];
         }
         for (pigment, curve) in deviations.scattering.iter_mut().enumerate() {
             if let Some(place) = layout.scattering(pigment) {
-                curve[at] = curves.scattering[pigment][at] * sd(place);
+                curve[at] = curves.scattering[pigment][at] * sds[place];
             }
         }
     }

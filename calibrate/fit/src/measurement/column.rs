@@ -40,7 +40,6 @@ pub(super) fn columns(
     kind: TableKind,
     pigments: Option<&[String]>,
 ) -> Result<Vec<Column>, MeasurementError> {
-    let file = || headers.first().map_or_else(String::new, |_| place(0).file);
     // A header such as R254 may be a pigment (e.g. Pigment Red 254) or a wavelength.
     let letters = kind == TableKind::Readings
         && !headers.iter().any(|header: &String| {
@@ -86,13 +85,14 @@ pub(super) fn columns(
             _ if has_included && excludes_specular(name) => Some(Column::Ignored),
             _ => column(name, letters),
         };
-        let is_named = |names: &[String]| names.iter().any(|pigment| pigment == name);
         columns.push(
             match (
                 column.ok_or_else(|| MeasurementError::WavelengthRange { place: place(index) })?,
                 pigments,
             ) {
-                (Column::Pigment(_) | Column::Ignored, Some(names)) if is_named(names) => {
+                (Column::Pigment(_) | Column::Ignored, Some(names))
+                    if names.iter().any(|pigment| pigment == name) =>
+                {
                     Column::Pigment(name.to_owned())
                 }
                 (Column::Pigment(_), Some(_)) => Column::Ignored,
@@ -101,11 +101,10 @@ pub(super) fn columns(
             },
         );
     }
+    let file = headers.first().map_or_else(String::new, |_| place(0).file);
     if !columns.contains(&Column::Sample) {
-        return Err(MeasurementError::Sheet(CsvTableError::MissingColumn {
-            file: file(),
-            column: "sample",
-        }));
+        let column = "sample";
+        return Err(MeasurementError::Sheet(CsvTableError::MissingColumn { file, column }));
     }
     let wavelengths = columns.iter().enumerate().filter_map(|(index, column)| match column {
         Column::Wavelength(nm) => Some((index, *nm)),
@@ -113,10 +112,8 @@ pub(super) fn columns(
     });
     let wavelengths: Vec<(usize, f64)> = wavelengths.collect();
     if wavelengths.is_empty() && kind == TableKind::Readings {
-        return Err(MeasurementError::Sheet(CsvTableError::MissingColumn {
-            file: file(),
-            column: "400 (a wavelength in nm)",
-        }));
+        let column = "400 (a wavelength in nm)";
+        return Err(MeasurementError::Sheet(CsvTableError::MissingColumn { file, column }));
     }
     let falls = wavelengths.len() > 1 && wavelengths[1].1 < wavelengths[0].1;
     for pair in wavelengths.windows(2) {
@@ -158,8 +155,6 @@ fn has_word(heading: &str, word: &str) -> bool {
 /// `letters` says whether `R400` is a wavelength. Beside plain numbers it is a pigment.
 fn column(name: &str, letters: bool) -> Option<Column> {
     let lower = name.to_ascii_lowercase();
-    let pigment = || Some(Column::Pigment(name.to_owned()));
-    let in_range = |nm: &f64| (MEASURABLE_NM).contains(nm);
     match lower.as_str() {
         "film" => Some(Column::Film),
         "backing" => Some(Column::Backing),
@@ -169,15 +164,11 @@ fn column(name: &str, letters: bool) -> Option<Column> {
         // Another column holds the names.
         lower if name_rank(lower).is_some() => Some(Column::Ignored),
         _ => match wavelength_of_header(&lower) {
-            Some(nm) if is_letter_and_number(&lower) => {
-                if letters && in_range(&nm) {
-                    Some(Column::Wavelength(nm))
-                } else {
-                    pigment()
-                }
+            Some(nm) if !is_letter_and_number(&lower) => {
+                MEASURABLE_NM.contains(&nm).then_some(Column::Wavelength(nm))
             }
-            Some(nm) => in_range(&nm).then_some(Column::Wavelength(nm)),
-            None => pigment(),
+            Some(nm) if letters && MEASURABLE_NM.contains(&nm) => Some(Column::Wavelength(nm)),
+            _ => Some(Column::Pigment(name.to_owned())),
         },
     }
 }
@@ -358,9 +349,11 @@ impl HeadingRow {
     pub(super) fn first(text: &str) -> Self {
         let offset = text.len() - text.trim_start_matches(['\n', '\r', ' ']).len();
         let line = text[offset..].lines().next().unwrap_or_default();
-        let count = |separator: &u8| line.bytes().filter(|byte| byte == separator).count();
         // We search the maximum from behind, to get the first of several.
-        let separator = SEPARATORS.into_iter().rev().max_by_key(count).unwrap_or(b',');
+        let separators = SEPARATORS.into_iter().rev();
+        let separator = separators
+            .max_by_key(|separator| line.bytes().filter(|byte| byte == separator).count())
+            .unwrap_or(b',');
         Self { separator, offset }
     }
 }
@@ -448,50 +441,41 @@ mod tests {
 
     #[test]
     fn wavelengths_fall_or_rise_and_turn_nowhere() {
-        let columns = |names: &str| {
-            let names: Vec<String> = names.split(',').map(str::to_owned).collect();
-            let place = |index: usize| CellPlace::new("f", 3, &names[index]);
-            columns(&place, &names, TableKind::Readings, None).map_err(|error| error.to_string())
-        };
-        assert_eq!(columns("Name,700,600,500").unwrap()[1], Column::Wavelength(700.0));
+        let falling = columns_of("Name,700,600,500", TableKind::Readings).unwrap();
+        assert_eq!(falling[1], Column::Wavelength(700.0));
         assert_eq!(
-            columns("Name,700,500,600").unwrap_err(),
+            columns_of("Name,700,500,600", TableKind::Readings).unwrap_err(),
             "f, row 3, column `600`: wavelengths must rise or fall throughout, found 600 nm after 500 nm"
         );
-        assert!(columns("Name,700,600,600nm").unwrap_err().contains("600 nm occurs twice"));
+        let error = columns_of("Name,700,600,600nm", TableKind::Readings).unwrap_err();
+        assert!(error.contains("600 nm occurs twice"), "{error}");
+    }
+
+    fn columns_of(headings: &str, kind: TableKind) -> Result<Vec<Column>, String> {
+        let names: Vec<String> = headings.split(',').map(str::to_owned).collect();
+        columns(&|index| CellPlace::new("f", 3, &names[index]), &names, kind, None)
+            .map_err(|error| error.to_string())
     }
 
     #[test]
     fn readings_without_the_specular_component_are_ignored_beside_those_with_it() {
-        let columns = |names: [&str; 5]| {
-            let names = names.map(str::to_owned);
-            columns(
-                &|index| CellPlace::new("f", 1, &names[index]),
-                &names,
-                TableKind::Readings,
-                None,
-            )
-            .unwrap()
-        };
-        let both = columns(["Data Name", "SCI 400nm", "SCI 410nm", "SCE 400nm", "SCE 410nm"]);
+        let both = "Data Name,SCI 400nm,SCI 410nm,SCE 400nm,SCE 410nm";
+        let both = columns_of(both, TableKind::Readings).unwrap();
         let nm = Column::Wavelength;
         assert_eq!(both[1..], [nm(400.0), nm(410.0), Column::Ignored, Column::Ignored]);
-        let one = columns(["Data Name", "SCE 400nm", "SCE 410nm", "SCE 420nm", "L*(D65)"]);
+        let one = "Data Name,SCE 400nm,SCE 410nm,SCE 420nm,L*(D65)";
+        let one = columns_of(one, TableKind::Readings).unwrap();
         assert_eq!(one[1..4], [nm(400.0), nm(410.0), nm(420.0)]);
     }
 
     #[test]
     fn a_letter_with_a_number_is_a_pigment_beside_plain_wavelengths() {
-        let columns = |names: &[&str], kind| {
-            let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
-            columns(&|index| CellPlace::new("f", 1, &names[index]), &names, kind, None).unwrap()
-        };
-        let beside = columns(&["sample", "R254", "R101", "400"], TableKind::Readings);
+        let beside = columns_of("sample,R254,R101,400", TableKind::Readings).unwrap();
         assert_eq!(beside[1], Column::Pigment("R254".into()));
-        let alone = columns(&["sample", "R101", "R400", "R500"], TableKind::Readings);
+        let alone = columns_of("sample,R101,R400,R500", TableKind::Readings).unwrap();
         assert_eq!(alone[1], Column::Pigment("R101".into()));
         assert_eq!(alone[2], Column::Wavelength(400.0));
-        let recipe = columns(&["sample", "R254", "a*"], TableKind::Recipes);
+        let recipe = columns_of("sample,R254,a*", TableKind::Recipes).unwrap();
         assert_eq!(recipe[1], Column::Pigment("R254".into()));
         assert_eq!(recipe[2], Column::Ignored);
     }

@@ -136,8 +136,8 @@ impl LargeCsv {
     /// The system's error if the file cannot be read.
     pub(crate) fn open(path: &Path) -> io::Result<Option<Self>> {
         // Whoever reads the file next reports that it is missing.
-        let length = || std::fs::metadata(path).map_or(0, |found| found.len());
-        if is_standard_input(path) || length() < LARGE {
+        if is_standard_input(path) || std::fs::metadata(path).map_or(0, |found| found.len()) < LARGE
+        {
             return Ok(None);
         }
         Self::in_pieces_of(path, PIECE)

@@ -60,13 +60,15 @@ fn take_filled_names(headers: &[String], columns: &mut [Column], rows: &[CsvRow]
 /// commas in quoted readings for decimal signs, because no reflectance has thousands. Only amounts could
 /// have them.
 fn has_decimal_commas(separator: u8, columns: &[Column], rows: &[CsvRow]) -> bool {
-    let decides = |column: &Column| match column {
-        Column::Wavelength(_) => true,
-        Column::Pigment(_) | Column::Thickness => separator != b',',
-        _ => false,
-    };
     rows.iter().any(|row: &CsvRow| {
-        row.cells.iter().zip(columns).any(|(cell, column)| decides(column) && cell.contains(','))
+        row.cells.iter().zip(columns).any(|(cell, column)| {
+            let decides = match column {
+                Column::Wavelength(_) => true,
+                Column::Pigment(_) | Column::Thickness => separator != b',',
+                _ => false,
+            };
+            decides && cell.contains(',')
+        })
     })
 }
 
@@ -439,9 +441,9 @@ pub(super) fn without_amounts(
     number: impl Fn(&str) -> Option<f64>,
 ) -> Vec<usize> {
     let film = columns.iter().position(|column| *column == Column::Film);
-    let is_bare =
-        |row: &CsvRow| film.is_some_and(|place| Film::named(&cell(row, place)) == Some(Film::None));
-    let (bare, paint): (Vec<&CsvRow>, Vec<&CsvRow>) = rows.iter().partition(|row| is_bare(row));
+    let (bare, paint): (Vec<&CsvRow>, Vec<&CsvRow>) = rows.iter().partition(|row| {
+        film.is_some_and(|place| Film::named(&cell(row, place)) == Some(Film::None))
+    });
     let pigments = columns.iter().enumerate();
     let pigments: Vec<usize> = pigments
         .filter(|(_, column)| matches!(column, Column::Pigment(_)))
@@ -451,20 +453,24 @@ pub(super) fn without_amounts(
     let in_all = |rows: &[&CsvRow], place: usize| {
         !rows.is_empty() && rows.iter().all(|row| amount(row, place).is_some_and(|a| a != 0.0))
     };
-    let is_text = |place: usize| {
-        let mut cells = rows.iter().map(|row| cell(row, place)).filter(|cell| !cell.is_empty());
-        let mut texts = cells.by_ref().peekable();
-        texts.peek().is_some() && texts.all(|cell| number(&cell).is_none())
-    };
-    let mut found: Vec<usize> =
-        pigments.iter().copied().filter(|&place| is_text(place) || in_all(&bare, place)).collect();
+    let found = pigments.iter().copied().filter(|&place| {
+        let cells = rows.iter().map(|row| cell(row, place));
+        let mut cells = cells.filter(|cell| !cell.is_empty()).peekable();
+        let is_text = cells.peek().is_some() && cells.all(|cell| number(&cell).is_none());
+        is_text || in_all(&bare, place)
+    });
+    let mut found: Vec<usize> = found.collect();
     let (everywhere, others): (Vec<usize>, Vec<usize>) = pigments
         .into_iter()
         .filter(|place| !found.contains(place))
         .partition(|&place| in_all(&paint, place));
-    let total = |row: &&CsvRow| others.iter().filter_map(|&place| amount(row, place)).sum::<f64>();
-    let is_whole = |whole: f64| paint.iter().all(|row| (total(row) / whole - 1.0).abs() < WHOLE);
-    if paint.len() >= LEAST_ROWS && (is_whole(1.0) || is_whole(100.0)) {
+    let others_are_whole = [1.0, 100.0].into_iter().any(|whole: f64| {
+        paint.iter().all(|row| {
+            let total: f64 = others.iter().filter_map(|&place| amount(row, place)).sum();
+            (total / whole - 1.0).abs() < WHOLE
+        })
+    });
+    if paint.len() >= LEAST_ROWS && others_are_whole {
         found.extend(everywhere);
     }
     found.sort_unstable();
@@ -562,10 +568,8 @@ mod tests {
     fn pigments_that_are_named_are_read_and_no_others() {
         let text = b"sample,L,a,b,Note,400,500\nw,1,,3,,0.8,0.8\nr,,1,-2,x,0.1,0.2\n";
         let names = ["L".to_owned(), "a".to_owned()];
-        let read = |names| {
-            MeasurementTable::from_csv_with("t.csv", text, ScaleChoice::ByFile, Some(names))
-        };
-        let table = read(&names).unwrap();
+        let choice = ScaleChoice::ByFile;
+        let table = MeasurementTable::from_csv_with("t.csv", text, choice, Some(&names)).unwrap();
         assert_eq!(table.pigments, names);
         assert!(table.remarks[0].contains("b, Note"), "{:?}", table.remarks);
     }

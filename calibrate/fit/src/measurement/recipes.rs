@@ -134,7 +134,7 @@ impl Recipes {
             let names = unread.join(", ");
             remarks.push(format!("recipes without a reading: {names}"));
         }
-        let join = |reading: Reading| {
+        let readings = table.readings.into_iter().filter_map(|reading: Reading| {
             let Some(row) = by_name.get(reading.sample.as_str()) else {
                 let amounts = vec![0.0; self.pigments.len()].into();
                 return (reading.film == Film::None).then_some(Reading { amounts, ..reading });
@@ -151,8 +151,8 @@ impl Recipes {
                 amounts: row.amounts.clone(),
                 ..reading
             })
-        };
-        let readings: Vec<Reading> = table.readings.into_iter().filter_map(join).collect();
+        });
+        let readings: Vec<Reading> = readings.collect();
         if let Some(reading) = readings
             .iter()
             .find(|r: &&Reading| r.film == Film::Paint && r.amounts.iter().all(|a| *a == 0.0))

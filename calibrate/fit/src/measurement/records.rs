@@ -186,8 +186,8 @@ fn scale(
 impl Spectrum<'_> {
     /// Largest value where readings must be valid. If there is none, this is the largest of all values.
     fn largest(&self) -> f64 {
-        let all = || self.wavelengths_nm.iter().zip(&self.values);
-        let sound = all().filter(|(nm, _)| SOUND.contains(nm)).map(|(_, value)| *value);
+        let all = self.wavelengths_nm.iter().zip(&self.values);
+        let sound = all.filter(|(nm, _)| SOUND.contains(nm)).map(|(_, value)| *value);
         let largest = sound.reduce(f64::max);
         largest.unwrap_or_else(|| self.values.iter().copied().fold(0.0, f64::max))
     }

@@ -193,7 +193,7 @@ impl MeasurementTable {
                 None => groups.push(vec![reading]),
             }
         }
-        let averaged = |group: &Vec<&Reading>| {
+        let spectra = groups.iter().map(|group| {
             let first = group[0];
             let alone = groups.iter().filter(|other| other[0].sample == first.sample).count() == 1;
             let name = match (alone, first.film) {
@@ -204,13 +204,13 @@ impl MeasurementTable {
                     None => format!("{} on {}", first.sample, first.backing),
                 },
             };
-            let mean = |at: usize| {
+            let means = (0..self.grid.count()).map(|at| {
                 group.iter().map(|r| r.reflectance[at]).sum::<f64>() / group.len() as f64
-            };
-            let reflectance = (0..self.grid.count()).map(mean).collect();
+            });
+            let reflectance = means.collect();
             AveragedSpectrum { sample: first.sample.clone(), film: first.film, name, reflectance }
-        };
-        AveragedSpectra { grid: self.grid, spectra: groups.iter().map(averaged).collect() }
+        });
+        AveragedSpectra { grid: self.grid, spectra: spectra.collect() }
     }
 }
 

@@ -47,9 +47,8 @@ pub fn optimal(
         state.change(best, 1.0);
         greedy.push(best);
     }
-    let exchanged = |design| exchanged(information, design, kept, task);
-    let mut first = exchanged(start.to_vec())?;
-    let mut second = exchanged(greedy)?;
+    let mut first = exchanged(information, start.to_vec(), kept, task)?;
+    let mut second = exchanged(information, greedy, kept, task)?;
     first[kept..].sort_unstable();
     second[kept..].sort_unstable();
     let better = information.log_determinant(&second) > information.log_determinant(&first);
@@ -103,7 +102,7 @@ impl<'a> State<'a> {
     /// Gain of log det by adding recipe `index`, from the matrix determinant lemma at each wavelength.
     fn gain(&self, index: usize) -> f64 {
         let places = &self.information.slopes.places[index];
-        let at_wavelength = |(at, covariance): (usize, &DMatrix<f64>)| {
+        let gains = self.covariances.iter().enumerate().map(|(at, covariance)| {
             let slopes = self.information.slopes.at(index, at);
             let mut variance = 0.0;
             for (&row, a) in places.iter().zip(slopes) {
@@ -112,8 +111,8 @@ impl<'a> State<'a> {
                 }
             }
             variance.ln_1p()
-        };
-        self.covariances.iter().enumerate().map(at_wavelength).sum()
+        });
+        gains.sum()
     }
 
     /// Recipe outside `design` with the greatest gain, and that gain. Of equal ones, the first.
@@ -337,17 +336,16 @@ fn rounds(paints: &PaintSet, pool: &[SwatchRecipe]) -> Vec<usize> {
             pair
         })
         .collect();
-    let linked = |recipe: &SwatchRecipe| {
-        recipe.purpose == Purpose::Cross
-            && recipe.total() == 2
-            && ring.contains(&[recipe.parts[0].0, recipe.parts[1].0])
-    };
     let rounds: [&dyn Fn(&SwatchRecipe) -> bool; 5] = [
         &|recipe| recipe.purpose == Purpose::Masstone,
         &|recipe| tint(recipe, FIRST_TINT),
         &|recipe| weakest > FIRST_TINT && tint(recipe, weakest),
         &|recipe| recipe.purpose == Purpose::Shade && Some(shade(recipe)) == strongest_shade,
-        &linked,
+        &|recipe| {
+            recipe.purpose == Purpose::Cross
+                && recipe.total() == 2
+                && ring.contains(&[recipe.parts[0].0, recipe.parts[1].0])
+        },
     ];
     rounds
         .into_iter()

@@ -210,11 +210,11 @@ fn best_design(
 
 /// Refuses a plan if a fit would not identify every pigment.
 fn check_identified(paints: &PaintSet, recipes: &[SwatchRecipe]) -> Result<(), PlanError> {
-    let shares = |recipe: &SwatchRecipe| -> Vec<f64> {
+    let shares = recipes.iter().map(|recipe| {
         let shares = recipe.shares();
         paints.ids().map(|paint| shares.parts_of(paint)).collect()
-    };
-    let shares: Vec<Vec<f64>> = recipes.iter().map(shares).collect();
+    });
+    let shares: Vec<Vec<f64>> = shares.collect();
     let unknown = unidentified(shares.iter().map(Vec::as_slice), PaintSet::WHITE);
     if unknown.is_empty() {
         return Ok(());
@@ -264,12 +264,15 @@ impl Weighing {
     /// Paints of `recipe` with the masses in grams that you weigh, rounded to the balance's step.
     #[must_use]
     pub fn grams(&self, recipe: &SwatchRecipe) -> Recipe {
-        let steps = |share: f64| (share * self.grams / self.resolution).round();
         // Dividing by the number of steps in a gram gives the nearest decimal.
         let per_gram = (1.0 / self.resolution).round();
         let exact = (per_gram * self.resolution - 1.0).abs() < 1e-9;
-        let weighed = |steps: f64| if exact { steps / per_gram } else { steps * self.resolution };
-        recipe.shares().iter().map(|&(paint, share)| (paint, weighed(steps(share)))).collect()
+        let shares = recipe.shares();
+        let grams = shares.iter().map(|&(paint, share)| {
+            let steps = (share * self.grams / self.resolution).round();
+            (paint, if exact { steps / per_gram } else { steps * self.resolution })
+        });
+        grams.collect()
     }
 }
 

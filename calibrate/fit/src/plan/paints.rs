@@ -26,9 +26,9 @@ impl PaintSet {
     /// [`PlanError::Name`] for a name that a column of a measurement file cannot have,
     /// [`PlanError::Twice`] for one given twice, [`PlanError::NoColor`] for a white alone.
     pub fn new(colors: &[String], white: &str, black: Option<&str>) -> Result<Self, PlanError> {
-        let special = |name: &&String| *name == white || Some(name.as_str()) == black;
         let mut names = vec![white.to_owned()];
-        names.extend(colors.iter().filter(|name| !special(name)).cloned());
+        let others = colors.iter().filter(|name| *name != white && Some(name.as_str()) != black);
+        names.extend(others.cloned());
         names.extend(black.map(str::to_owned));
         for (index, name) in names.iter().enumerate() {
             if !names_a_pigment(name) {
@@ -193,7 +193,10 @@ impl MeasurementForm {
         let fixed = ["sample", "film", "backing", "replicate"].map(str::to_owned);
         let wavelengths = self.grid.wavelengths_nm().map(|nm| nm.to_string());
         write(fixed.into_iter().chain(paints.names.iter().cloned()).chain(wavelengths).collect());
-        let mut rows = |sample: &str, film: &str, grams: &Recipe| {
+        let card = Recipe::default();
+        let films = std::iter::once(("card", "none", &card))
+            .chain(swatches.into_iter().map(|(sample, grams)| (sample, "paint", grams)));
+        for (sample, film, grams) in films {
             for backing in BACKINGS {
                 for replicate in 1..=self.replicates {
                     let mut row = vec![String::new(); paints.names.len() + self.grid.count() + 4];
@@ -207,10 +210,6 @@ impl MeasurementForm {
                     write(row);
                 }
             }
-        };
-        rows("card", "none", &Recipe::default());
-        for (sample, grams) in swatches {
-            rows(sample, "paint", grams);
         }
         writer.into_inner().expect("memory can be written")
     }

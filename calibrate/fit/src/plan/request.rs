@@ -53,10 +53,9 @@ fn read_noise<'de, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<Option<ExpectedNoise>, D::Error> {
     from_text(deserializer, |text| {
-        let number = |part: &str| part.trim().parse::<f64>().ok();
         let numbers = text.split_once(',').and_then(|(first, second)| {
-            let constant = number(first)?;
-            let even = number(second)?;
+            let constant = first.trim().parse::<f64>().ok()?;
+            let even = second.trim().parse::<f64>().ok()?;
             Some(ExpectedNoise { constant, even })
         });
         let noise = numbers.filter(ExpectedNoise::is_possible).ok_or_else(|| {

@@ -52,13 +52,14 @@ fn relief(script: &mut ScriptBuilder) {
         let y = 27.0;
         for petal in 0..11 {
             let turn = f64::from(petal) * 2.0 * PI / 11.0 + script.about(0.06);
-            let at = |out: f64, bend: f64| -> Place {
-                (x + out * (turn + bend).cos(), y + 1.35 * out * (turn + bend).sin())
-            };
             for pass in 0..4 {
                 script.fresh("round", "W1", 0.0, 0.6);
                 let out = 15.0 - f64::from(pass);
-                script.stroke("round", &[at(3.5, 0.0), at(0.6 * out, 0.35), at(out, 0.9)], 0.75);
+                let bends = [(3.5, 0.0), (0.6 * out, 0.35), (out, 0.9)];
+                let places: [Place; 3] = bends.map(|(out, bend): (f64, f64)| {
+                    (x + out * (turn + bend).cos(), y + 1.35 * out * (turn + bend).sin())
+                });
+                script.stroke("round", &places, 0.75);
             }
         }
     }

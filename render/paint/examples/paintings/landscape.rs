@@ -86,8 +86,9 @@ fn underpainting(script: &mut ScriptBuilder) {
             script.wash("wash");
             script.load("wash", recipe, 0.3, 0.2);
             let bend = script.about(4.0);
-            let x = |side: f64| WIDTH / 2.0 + way * side * (WIDTH / 2.0 - 1.0);
-            script.even("wash", &[(x(-1.0), y), (x(0.0), y + bend), (x(1.0), y)], 0.45);
+            let [start, middle, end] =
+                [-1.0, 0.0, 1.0].map(|side: f64| WIDTH / 2.0 + way * side * (WIDTH / 2.0 - 1.0));
+            script.even("wash", &[(start, y), (middle, y + bend), (end, y)], 0.45);
             way = -way;
             y += 9.0;
         }

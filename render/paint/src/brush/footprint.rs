@@ -211,17 +211,19 @@ fn cells_within(reach: [f32; 4], origin: (i64, i64), bounds: Rect) -> Rect {
     if reach[0] > reach[2] {
         return Rect::default();
     }
-    let side = |low: f32, high: f32, origin: i64, start: usize, count: usize| {
-        let end = (start + count) as i64;
-        let start = start as i64;
-        let low = (origin + (low - 0.5).ceil() as i64).clamp(start, end);
-        let high = (origin + (high - 0.5).ceil() as i64).clamp(start, end);
-        (low as usize, (high - low) as usize)
-    };
     let (x, width) = side(reach[0], reach[2], origin.0, bounds.x, bounds.width);
     let (y, height) = side(reach[1], reach[3], origin.1, bounds.y, bounds.height);
     let rect = Rect { x, y, width, height };
     if rect.is_empty() { Rect::default() } else { rect }
+}
+
+/// First cell and number of cells of one side of [`cells_within`].
+fn side(low: f32, high: f32, origin: i64, start: usize, count: usize) -> (usize, usize) {
+    let end = (start + count) as i64;
+    let start = start as i64;
+    let low = (origin + (low - 0.5).ceil() as i64).clamp(start, end);
+    let high = (origin + (high - 0.5).ceil() as i64).clamp(start, end);
+    (low as usize, (high - low) as usize)
 }
 
 /// A corner of a facet, in cells from the first cell of the contact.

@@ -315,9 +315,9 @@ mod tests {
         let far = locks(1).columns;
         assert_ne!(near, far);
         for locks in [near, far] {
-            let releases = || locks.iter().map(|lock| lock.release >> 9);
-            let low = releases().min().unwrap();
-            let high = releases().max().unwrap();
+            let releases: Vec<u32> = locks.iter().map(|lock| lock.release >> 9).collect();
+            let low = *releases.iter().min().unwrap();
+            let high = *releases.iter().max().unwrap();
             assert!(low < 32 && high > 32 && high < 128, "{low} to {high}");
         }
     }

@@ -253,9 +253,11 @@ mod mark_tests {
                     shape.name()
                 );
                 println!("{line}");
-                let wide = |of_mm: f64| least >= 0.85 * of_mm && most <= 1.15 * of_mm;
+                let wide = [size_mm, upright_mm]
+                    .into_iter()
+                    .all(|of_mm| least >= 0.85 * of_mm && most <= 1.15 * of_mm);
                 let there = offset.abs() < 1.0 && farthest < 1.0;
-                if !(wide(size_mm) && wide(upright_mm) && there && unsteady < 0.03) {
+                if !(wide && there && unsteady < 0.03) {
                     outside.push(line);
                 }
             }
@@ -297,9 +299,10 @@ mod tests {
                 "{shape}: {areas:?}"
             );
             let [width, height] = [marks[2].cells.width(), marks[2].cells.height()];
-            let column = |x: usize| (0..height).any(|y| marks[2].cells[(x, y)]);
-            let row = |y: usize| (0..width).any(|x| marks[2].cells[(x, y)]);
-            assert!(column(0) && column(width - 1) && row(0) && row(height - 1), "{shape}");
+            let cells = &marks[2].cells;
+            let columns = [0, width - 1].into_iter().all(|x| (0..height).any(|y| cells[(x, y)]));
+            let rows = [0, height - 1].into_iter().all(|y| (0..width).any(|x| cells[(x, y)]));
+            assert!(columns && rows, "{shape}");
         }
     }
 

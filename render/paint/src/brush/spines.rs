@@ -353,19 +353,15 @@ impl Hair<'_> {
         let mut sum = Vector::ZERO;
         let mut whole = 0.0;
         let mut last = places[0] + self.axis;
-        let beyond = places[NODES - 1] * 2.0 - places[NODES - 2];
-        let before = places[0] * 2.0 - places[1];
-        let at = |level: isize| match usize::try_from(level) {
-            Err(_) => before,
-            Ok(level) => places.get(level).copied().unwrap_or(beyond),
-        };
+        // With a place before the first and one beyond the last.
+        let mut extended = [places[0] * 2.0 - places[1]; NODES + 2];
+        extended[1..=NODES].copy_from_slice(&places);
+        extended[NODES + 1] = places[NODES - 1] * 2.0 - places[NODES - 2];
         for look in 0..=(NODES - 1) * LOOKS {
             let level = (look / LOOKS).min(NODES - 2);
             let share = look as f32 / LOOKS as f32 - level as f32;
             let weights = b_spline(share);
-            let first = level as isize - 1;
-            let core =
-                (0..4).fold(Vector::ZERO, |sum, i| sum + at(first + i as isize) * weights[i]);
+            let core = (0..4).fold(Vector::ZERO, |sum, i| sum + extended[level + i] * weights[i]);
             let along = (last - core).unit_or(self.axis);
             last = core;
             let flat = between(lying[level], lying[level + 1], share);
@@ -585,8 +581,9 @@ impl SubAssign for Vector {
 /// Weights of the uniform cubic B-spline.
 pub(super) fn b_spline(t: f32) -> [f32; 4] {
     let s = 1.0 - t;
-    let inner = |t: f32, s: f32| 4.0 * s * s * s + 12.0 * s * s * t + 6.0 * s * t * t;
-    [s * s * s, inner(t, s) + t * t * t, inner(s, t) + s * s * s, t * t * t].map(|w| w / 6.0)
+    let [second, third] =
+        [(t, s), (s, t)].map(|(t, s)| 4.0 * s * s * s + 12.0 * s * s * t + 6.0 * s * t * t);
+    [s * s * s, second + t * t * t, third + s * s * s, t * t * t].map(|w| w / 6.0)
 }
 
 #[cfg(test)]

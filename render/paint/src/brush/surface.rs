@@ -492,10 +492,10 @@ mod tests {
             // The tip is where the pen points.
             let tip = &mesh.vertices[mesh.around * (mesh.along - 1)..];
             let [tip_x, tip_y, _] = extent(tip);
-            let inside = |(low, high): (f32, f32), at: f64| {
-                low - 2.0 <= at as f32 && at as f32 <= high + 2.0
-            };
-            assert!(inside(tip_x, POSE.x) && inside(tip_y, POSE.y), "{shape}: {tip_x:?} {tip_y:?}");
+            let inside = [(tip_x, POSE.x), (tip_y, POSE.y)]
+                .into_iter()
+                .all(|((low, high), at)| low - 2.0 <= at as f32 && at as f32 <= high + 2.0);
+            assert!(inside, "{shape}: {tip_x:?} {tip_y:?}");
             // 40 cells wide, and turned by 90 degrees.
             if shape != HeadShape::Knife {
                 assert!((30.0..52.0).contains(&(y.1 - y.0)), "{shape}: {y:?}");
@@ -535,7 +535,7 @@ mod tests {
     #[test]
     fn hovering_before_a_stroke_leaves_no_trace_in_it() {
         let relief = Relief::flat(400, 300, 0.1);
-        let contact = |hovers: bool| {
+        let [after_hovering, alone] = [true, false].map(|hovers| {
             let mut head = Head::new(HeadShape::Filbert, 4.0, 0.1).unwrap();
             if hovers {
                 head.hover(&Pose { x: 20.0, twist_deg: 10.0, ..POSE }, &relief);
@@ -544,7 +544,7 @@ mod tests {
             let mut contact = Contact::default();
             head.advance(&Pose { x: POSE.x + 1.0, ..POSE }, &relief, BOUNDS, &mut contact);
             contact
-        };
-        assert!(contact(true) == contact(false), "another stroke");
+        });
+        assert!(after_hovering == alone, "another stroke");
     }
 }

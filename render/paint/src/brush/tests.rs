@@ -179,18 +179,6 @@ fn a_blade_that_turns_over_does_not_sweep_the_paint() {
 
 #[test]
 fn whole_cells_of_way_move_the_contact_and_nothing_else() {
-    let played = |right: i32, down: i32| {
-        let mut head = head(HeadShape::Filbert);
-        let mut contact = nothing();
-        for step in 0..40 {
-            let t = f64::from(step);
-            let x = 70.3 + f64::from(right) + 0.83 * t;
-            let y = 90.7 + f64::from(down) + 0.4 * t;
-            let pose = Pose { x, y, tilt_x_deg: t, twist_deg: 2.0 * t, ..POSE };
-            head.advance(&pose, &plane(), BOUNDS, &mut contact);
-        }
-        contact
-    };
     let here = played(0, 0);
     assert!(!here.rect.is_empty());
     for (right, down) in [(1, 0), (77, 13), (-8, -20)] {
@@ -204,6 +192,19 @@ fn whole_cells_of_way_move_the_contact_and_nothing_else() {
             assert_eq!(found, (here.brush_cell, here.velocity, here.sharers()));
         }
     }
+}
+
+fn played(right: i32, down: i32) -> Contact {
+    let mut head = head(HeadShape::Filbert);
+    let mut contact = nothing();
+    for step in 0..40 {
+        let t = f64::from(step);
+        let x = 70.3 + f64::from(right) + 0.83 * t;
+        let y = 90.7 + f64::from(down) + 0.4 * t;
+        let pose = Pose { x, y, tilt_x_deg: t, twist_deg: 2.0 * t, ..POSE };
+        head.advance(&pose, &plane(), BOUNDS, &mut contact);
+    }
+    contact
 }
 
 #[test]
@@ -243,15 +244,13 @@ fn paint_flows_along_the_hair_off_the_canvas_but_not_in_the_air() {
 
 #[test]
 fn hair_is_uneven_across_a_flat_and_a_blade_is_not() {
-    let unevenness = |shape| {
+    let [flat, knife] = [HeadShape::Flat, HeadShape::Knife].map(|shape| {
         let cells = under(&set_down(shape, POSE), 0.0);
         let beside = cells.windows(2).filter(|w| w[0].1 == w[1].1 && w[0].0 + 1 == w[1].0);
         let steps: Vec<f64> =
             beside.map(|w| f64::from((w[0].2.height - w[1].2.height).abs())).collect();
         steps.iter().sum::<f64>() / steps.len() as f64 / f64::from(QUANTA_PER_CELL)
-    };
-    let flat = unevenness(HeadShape::Flat);
-    let knife = unevenness(HeadShape::Knife);
+    });
     assert!(flat > 0.02 && flat > 2.0 * knife, "{flat} cells, {knife}");
 }
 
@@ -261,12 +260,13 @@ fn sharers_are_those_that_name_the_same_cell() {
         let contact = set_down(shape, Pose { pressure: 0.9, twist_deg: 33.0, ..POSE });
         let (width, height) = head(shape).paint_grid();
         let mut count = vec![0; width * height];
-        let touches = || contact.touches.iter().filter(|t| t.height != Touch::NONE.height);
-        for touch in touches() {
+        let touches = contact.touches.iter().filter(|t| t.height != Touch::NONE.height);
+        let touches: Vec<&Touch> = touches.collect();
+        for touch in &touches {
             count[touch.brush_cell as usize] += 1;
         }
-        assert!(touches().count() > 20, "{shape}");
-        for touch in touches() {
+        assert!(touches.len() > 20, "{shape}");
+        for touch in touches {
             assert_eq!(touch.sharers(), count[touch.brush_cell as usize], "{shape}");
         }
     }
@@ -309,15 +309,14 @@ fn light_pressure_spares_the_valleys_of_a_weave_and_full_pressure_fills_most() {
         head.advance(&pose, &relief, BOUNDS, &mut contact);
         let cells = under(&contact, 10.0);
         let sink = contact.rates.sink as i32;
-        let of = |valley: bool| {
+        [true, false].map(|valley| {
             let side = cells.iter().filter(|c| (floor[(c.0, c.1)] == 0) == valley);
             side.filter(|c| c.2.height - sink <= floor[(c.0, c.1)]).count()
-        };
-        (of(true), of(false))
+        })
     };
-    let (valleys, crests) = touched(0.35);
+    let [valleys, crests] = touched(0.35);
     assert!(valleys == 0 && crests > 20, "{valleys} {crests}");
-    let (valleys, crests) = touched(1.0);
+    let [valleys, crests] = touched(1.0);
     // Some do not: bristles that draw back do not reach the bottom of valleys this deep.
     assert!(valleys * 10 > crests * 6, "{valleys} {crests}");
 }

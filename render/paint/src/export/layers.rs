@@ -382,11 +382,10 @@ mod tests {
         let stack = String::from_utf8(entry(&file.bytes, "stack.xml")).unwrap();
         let hidden: Vec<&str> = stack.lines().filter(hidden).collect();
         assert!(hidden.len() == 1 && hidden[0].contains("layer002.png"), "{stack}");
-        let layer = |index| layer(&file.bytes, index);
-        let seen = composited(&[layer(0), layer(1), layer(3)]);
+        let seen = composited(&[0, 1, 3].map(|index| layer(&file.bytes, index)));
         let error = worst(&seen, &picture(&document, &scene(&document, &light)));
         assert!(error <= 2.0, "without the hidden layer: {error}");
-        let below_wet = composited(&[layer(0), layer(1), layer(2)]);
+        let below_wet = composited(&[0, 1, 2].map(|index| layer(&file.bytes, index)));
         document.dry[1].visible = true;
         let shown = picture_of_lowest(&document, &scene(&document, &light), 2);
         let error = worst(&below_wet, &shown);

@@ -167,9 +167,10 @@ fn json(file: &str, parts: &[Header]) -> Result<String, PaintingFileError> {
         reason: reason.to_owned(),
     };
     let key = Text::from(ATTRIBUTE);
-    let base =
-        |part: &&Header| part.own_attributes.layer_name.as_ref().is_some_and(|name| name.eq(BASE));
-    let base = parts.iter().find(base).ok_or_else(|| format("part `base` is missing"))?;
+    let base = parts.iter().find(|part: &&Header| {
+        part.own_attributes.layer_name.as_ref().is_some_and(|name| name.eq(BASE))
+    });
+    let base = base.ok_or_else(|| format("part `base` is missing"))?;
     match base.own_attributes.other.get(&key) {
         Some(AttributeValue::Text(text)) => Ok(text.chars().collect()),
         Some(_) => Err(format("attribute `impasto` of part `base` is not text")),
@@ -527,19 +528,18 @@ fn planes(
     let names: Vec<String> =
         part.channels.list.iter().map(|channel| channel.name.chars().collect()).collect();
     for (index, (name, channel)) in names.iter().zip(&part.channels.list).enumerate() {
-        let wrong = |reason: &str| Err(fault.channel(name.clone(), reason));
-        if wanted.iter().all(|wanted| wanted.name != *name) {
-            return wrong("names no pigment of this layer");
-        }
-        if names[..index].contains(name) {
-            return wrong("occurs twice");
-        }
-        if channel.sample_type != SampleType::F32 {
-            return wrong("must hold 32-bit floats; fewer bits lose paint");
-        }
-        if (channel.sampling.x(), channel.sampling.y()) != (1, 1) {
-            return wrong("must have a value for every cell");
-        }
+        let reason = if wanted.iter().all(|wanted| wanted.name != *name) {
+            "names no pigment of this layer"
+        } else if names[..index].contains(name) {
+            "occurs twice"
+        } else if channel.sample_type != SampleType::F32 {
+            "must hold 32-bit floats; fewer bits lose paint"
+        } else if (channel.sampling.x(), channel.sampling.y()) != (1, 1) {
+            "must have a value for every cell"
+        } else {
+            continue;
+        };
+        return Err(fault.channel(name.clone(), reason));
     }
     let place = |name: &str| names.iter().position(|found| found == name);
     let mut planes = Vec::new();

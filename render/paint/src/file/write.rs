@@ -277,19 +277,18 @@ impl Part<'_> {
     ) -> impl Iterator<Item = f32> + '_ {
         let Rect { x, width, .. } = self.window;
         let residue = matches!(content, Content::HeightResidue | Content::AmountResidue(_));
-        let quanta = move |i: usize| match (self.source, content) {
-            (Source::Ground(height), _) => f64::from(height[(x + i, y)]),
-            (Source::Paint(paint), Content::Amount(slot) | Content::AmountResidue(slot)) => {
-                f64::from(match paint.pigments[(x + i, y)].get(slot) {
-                    Some(&amount) => amount,
-                    None => paint.vehicle[(x + i, y)],
-                })
-            }
-            (Source::Paint(paint), _) => f64::from(paint.cell(y * paint.width() + x + i).volume()),
-        };
-        (0..width).map(move |i| match residue {
-            true => scale.residue(quanta(i)),
-            false => scale.mm(quanta(i)),
+        (x..x + width).map(move |x| {
+            let quanta = match (self.source, content) {
+                (Source::Ground(height), _) => f64::from(height[(x, y)]),
+                (Source::Paint(paint), Content::Amount(slot) | Content::AmountResidue(slot)) => {
+                    f64::from(match paint.pigments[(x, y)].get(slot) {
+                        Some(&amount) => amount,
+                        None => paint.vehicle[(x, y)],
+                    })
+                }
+                (Source::Paint(paint), _) => f64::from(paint.cell(y * paint.width() + x).volume()),
+            };
+            if residue { scale.residue(quanta) } else { scale.mm(quanta) }
         })
     }
 }

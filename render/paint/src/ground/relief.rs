@@ -141,7 +141,7 @@ impl Threads {
         let wander = Hills::new(random);
         let thickness = Hills::new(random);
         let pitch = pitch as f32;
-        let thread = |(number, middle): (usize, &f64)| {
+        let threads = middles.iter().enumerate().map(|(number, middle)| {
             let row = number as f32 * 7.31;
             let usual = 0.5 * random.random_range(0.92..1.1f32);
             let course = (0..along).map(|cell| {
@@ -153,8 +153,8 @@ impl Threads {
                 [*middle as f32 + pitch * aside, pitch * width]
             });
             Thread { course: course.collect(), sign: if number % 2 == 0 { 1.0 } else { -1.0 } }
-        };
-        let threads: Vec<Thread> = middles.iter().enumerate().map(thread).collect();
+        });
+        let threads: Vec<Thread> = threads.collect();
         let mut nearest = Vec::with_capacity(across);
         let mut swing = Vec::with_capacity(across);
         let mut index = 1;
@@ -462,11 +462,11 @@ impl PictureRelief {
         heights.values_mut().par_iter_mut().enumerate().for_each(|(index, out)| {
             let (left, right, share_x) = across[index % width];
             let (top, bottom, share_y) = down[index / width];
-            let row = |y: usize| {
+            let [above, below] = [top, bottom].map(|y| {
                 let [a, b] = [left, right].map(|x| f32::from(values[y * columns + x]));
                 a + (b - a) * share_x
-            };
-            *out = scale * (row(top) + (row(bottom) - row(top)) * share_y);
+            });
+            *out = scale * (above + (below - above) * share_y);
         });
         Ok(heights)
     }

@@ -203,13 +203,11 @@ mod tests {
         let motion = MotionConstants::new(0.1, 0.3);
         for _ in 0..10_000 {
             let tops: [i32; 4] = std::array::from_fn(|_| random.random_range(0..8 * CELL));
-            let mut column = |top: i32| {
+            let [here, next] = [tops[1], tops[2]].map(|top| {
                 let penetration = random.random_range(-CELL..top.max(1));
                 let penetration = [penetration, NO_CONTACT][random.random_range(0..2)];
                 Column { top, pressure: pressure(&motion, penetration) }
-            };
-            let here = column(tops[1]);
-            let next = column(tops[2]);
+            });
             let there = flow(&motion, tops[0], here, next, tops[3]);
             let back = flow(&motion, tops[3], next, here, tops[0]);
             // Halves and shares are rounded.

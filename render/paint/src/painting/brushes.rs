@@ -323,11 +323,11 @@ impl Heap {
     /// to the next cell, so that the totals are exact.
     fn spread(&self, totals: [f64; SLOTS + 1], mut add: impl FnMut(i64, i64, Cell)) {
         let [columns, rows] = self.reach();
-        let cells = || rows.clone().flat_map(|y| columns.clone().map(move |x| (x, y)));
-        let whole: f64 = cells().map(|(x, y)| self.height(x, y)).sum();
+        let cells = rows.flat_map(|y| columns.clone().map(move |x| (x, y)));
+        let whole: f64 = cells.clone().map(|(x, y)| self.height(x, y)).sum();
         let mut so_far = 0.0;
         let mut spent = [0_u64; SLOTS + 1];
-        for (x, y) in cells() {
+        for (x, y) in cells {
             let height = self.height(x, y);
             if height == 0.0 {
                 continue;

@@ -303,12 +303,11 @@ fn both_backends_work_to_the_same_bits() {
         let Some(mut device) = on_gpu(COARSE_LINEN, 0.2) else { return };
         let mut processor = on_cpu(COARSE_LINEN, 0.2);
         let samples = along(8.0, (12.0, 22.0), 0.6);
-        let work = |painting: &mut Painting| {
+        let [taken, on_device] = [&mut processor, &mut device].map(|painting: &mut Painting| {
             let brush = loaded(painting, shape, 4.0);
             painting.stroke_as(tool, brush, &samples).unwrap().taken
-        };
-        let taken = work(&mut processor);
-        assert_eq!(work(&mut device), taken, "{tool:?}, {shape}");
+        });
+        assert_eq!(on_device, taken, "{tool:?}, {shape}");
         assert!(device.wet().unwrap() == processor.wet().unwrap(), "{tool:?}, {shape}");
     }
 }
@@ -349,30 +348,32 @@ fn portions_of_any_size_take_the_same() {
 
 #[test]
 fn a_rag_takes_more_with_pressure_strength_and_passes_and_never_from_below() {
-    let taken = |strength: f64, pressure: f64, passes: usize| {
-        let mut painting = on_cpu(PANEL, 0.1);
-        let brush = loaded(&mut painting, HeadShape::Flat, 6.0);
-        let samples = along(8.0, (5.0, 35.0), pressure);
-        let tool = StrokeTool::Erase { strength };
-        let sum = (0..passes)
-            .map(|_| painting.stroke_as(tool, brush, &samples).unwrap().taken.volume_mm3(CELL_MM));
-        let sum: f64 = sum.sum();
-        (sum, height_mm(&painting.wet().unwrap(), 20.0, 8.0))
-    };
-    let (little, left) = taken(0.3, 0.4, 1);
-    for (more, less_left) in [taken(0.3, 0.8, 1), taken(0.9, 0.4, 1), taken(0.3, 0.4, 3)] {
+    let (little, left) = rubbed(0.3, 0.4, 1);
+    for (more, less_left) in [rubbed(0.3, 0.8, 1), rubbed(0.9, 0.4, 1), rubbed(0.3, 0.4, 3)] {
         assert!(
             more > 1.1 * little && less_left < 0.8 * left,
             "{more} {less_left}: {little} {left}"
         );
     }
-    let (_, left) = taken(1.0, 1.0, 3);
+    let (_, left) = rubbed(1.0, 1.0, 3);
     assert!(left < 1e-4, "{left} mm stay after rubbing hard");
     let mut dry = on_cpu(PANEL, 0.1);
     dry.dry(1.0).unwrap();
     let layer = dry.dry_in(0, dry.bounds()).unwrap();
     assert_eq!(work_along(&mut dry, ERASE, HeadShape::Flat, 1.0), TakenPaint::default());
     assert!(dry.dry_in(0, dry.bounds()).unwrap() == layer, "dry paint came off");
+}
+
+/// Paint in mm³ that a rag takes, and the height in mm that stays on its way.
+fn rubbed(strength: f64, pressure: f64, passes: usize) -> (f64, f64) {
+    let mut painting = on_cpu(PANEL, 0.1);
+    let brush = loaded(&mut painting, HeadShape::Flat, 6.0);
+    let samples = along(8.0, (5.0, 35.0), pressure);
+    let tool = StrokeTool::Erase { strength };
+    let sum = (0..passes)
+        .map(|_| painting.stroke_as(tool, brush, &samples).unwrap().taken.volume_mm3(CELL_MM));
+    let sum: f64 = sum.sum();
+    (sum, height_mm(&painting.wet().unwrap(), 20.0, 8.0))
 }
 
 #[test]

@@ -184,7 +184,8 @@ impl Band {
     /// Optical thicknesses K d and S d of a film of these heights.
     #[inline]
     fn mixed(&self, heights_mm: &[f64; SLOTS]) -> (f64, f64) {
-        let sum = |values: &[f64; SLOTS]| values.iter().zip(heights_mm).map(|(v, h)| v * h).sum();
-        (sum(&self.absorption), sum(&self.scattering))
+        [&self.absorption, &self.scattering]
+            .map(|values| values.iter().zip(heights_mm).map(|(v, h)| v * h).sum::<f64>())
+            .into()
     }
 }

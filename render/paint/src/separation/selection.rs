@@ -62,10 +62,6 @@ pub fn choose_palette(
     if open.is_empty() {
         return Err(SeparationError::NoPigment);
     }
-    let mean = |chosen: &[PigmentId]| {
-        let slots = slots_of(chosen);
-        mean_error(&film(FilmMaterials { slots: &slots, ..materials }), settings, &colors)
-    };
     // Pigment of `open` with the least error at index `place` of the palette.
     let best = |chosen: &[PigmentId], place: usize, open: &[PigmentId]| {
         let tried: Vec<(f64, PigmentId)> = open
@@ -77,7 +73,8 @@ pub fn choose_palette(
                 } else {
                     with.push(pigment);
                 }
-                (mean(&with), pigment)
+                let film = film(FilmMaterials { slots: &slots_of(&with), ..materials });
+                (mean_error(&film, settings, &colors), pigment)
             })
             .collect();
         tried.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))

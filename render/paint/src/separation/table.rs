@@ -374,13 +374,14 @@ impl SeparationByHeight {
         let above = self.heights_mm.partition_point(|mm| *mm < f64::from(height_mm));
         let lower = above.saturating_sub(1).min(last);
         let upper = above.min(last);
-        let shares = |at: usize| (self.tables[at].heights_mm(rgb), self.heights_mm[at]);
-        let (thin, thin_mm) = shares(lower);
+        let thin = self.tables[lower].heights_mm(rgb);
+        let thin_mm = self.heights_mm[lower];
         let own = f64::from(height_mm);
         if lower == upper {
             return thin.map(|mm| (f64::from(mm) * own / thin_mm) as f32);
         }
-        let (thick, thick_mm) = shares(upper);
+        let thick = self.tables[upper].heights_mm(rgb);
+        let thick_mm = self.heights_mm[upper];
         let share = (own / thin_mm).ln() / (thick_mm / thin_mm).ln();
         let [thin_share, thick_share] = [(1.0 - share) / thin_mm, share / thick_mm];
         std::array::from_fn(|slot| {
@@ -399,10 +400,9 @@ impl SeparationByHeight {
     /// differs by more than [`OUT_OF_GAMUT`](super::OUT_OF_GAMUT).
     #[must_use]
     pub fn is_out_of_gamut(&self, rgb: [f32; 3], height_mm: f32) -> bool {
-        let off = |mm: f64| (mm / f64::from(height_mm)).ln().abs();
-        let nearest = (0..self.tables.len())
-            .min_by(|a, b| off(self.heights_mm[*a]).total_cmp(&off(self.heights_mm[*b])));
-        self.tables[nearest.unwrap_or(0)].is_out_of_gamut(rgb)
+        let off = self.heights_mm.iter().map(|mm| (mm / f64::from(height_mm)).ln().abs());
+        let nearest = off.enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
+        self.tables[nearest.map_or(0, |(at, _)| at)].is_out_of_gamut(rgb)
     }
 }
 
@@ -444,14 +444,13 @@ mod tests {
     /// films `recipe_mm` high.
     fn difference(films: &SeparationByHeight, height_mm: f32, recipe_mm: f32) -> f64 {
         let film = films.film();
-        let mixed = |at: usize| {
-            let parts = [7, 5, 3, 2, 1].map(|step| 0.02 + ((at * step) % 11) as f32);
-            let total: f32 = parts.iter().sum();
-            std::array::from_fn(|slot| parts.get(slot).map_or(0.0, |part| part / total * height_mm))
-        };
         (0..100)
             .map(|at: usize| {
-                let rgb = film.rgb(&mixed(at));
+                let parts = [7, 5, 3, 2, 1].map(|step| 0.02 + ((at * step) % 11) as f32);
+                let total: f32 = parts.iter().sum();
+                let rgb = film.rgb(&std::array::from_fn(|slot| {
+                    parts.get(slot).map_or(0.0, |part| part / total * height_mm)
+                }));
                 let scale = f64::from(height_mm / recipe_mm);
                 let found = films.heights_mm(rgb, recipe_mm).map(|mm| scale * f64::from(mm));
                 delta_e_ciede2000(film.lab_from_rgb(rgb), film.lab(&found))

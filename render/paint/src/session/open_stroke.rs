@@ -47,8 +47,8 @@ impl PaintingSession {
     /// Index of the head that has a name now.
     pub(super) fn tool(&self, brush: &str) -> Result<usize, PaintingError> {
         let names = self.brushes.names().map(|(name, _)| name);
-        let unknown = || unknown_brush(&CheckContext::default(), brush, names);
-        Ok(self.brushes.find(brush).ok_or_else(unknown)?)
+        let found = self.brushes.find(brush);
+        Ok(found.ok_or_else(|| unknown_brush(&CheckContext::default(), brush, names))?)
     }
 
     /// Rounds samples and adds them to the open stroke. [`PaintingSession::advance`] paints them.

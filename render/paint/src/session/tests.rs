@@ -311,15 +311,14 @@ fn a_painting_goes_on_with_its_palette_and_brushes_and_is_recorded() {
     let mut bare = script.clone();
     bare.table = false;
     let library = PigmentLibrary::van_gogh_oils();
-    let table = || Some(table.clone());
     let (_, palette, brushes) =
-        bare.surfaces_with_table(&library, Some(left.0.clone()), table()).unwrap();
+        bare.surfaces_with_table(&library, Some(left.0.clone()), Some(table.clone())).unwrap();
     assert_eq!((palette.unwrap().wet.totals(), brushes.len()), ([0; 9], 0));
     let missing = script.surfaces_with_table(&library, Some(left.0.clone()), None).unwrap_err();
     assert!(missing.to_string().starts_with("table: "), "{missing}");
     let mut other = left.0.clone();
     other.lighting.azimuth_deg += 1.0;
-    let other = script.surfaces_with_table(&library, Some(other), table()).unwrap_err();
+    let other = script.surfaces_with_table(&library, Some(other), Some(table)).unwrap_err();
     assert!(other.to_string().contains("another painting's"), "{other}");
 }
 

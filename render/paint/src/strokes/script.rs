@@ -364,21 +364,23 @@ impl StrokeScript {
     /// format or version, for unknown, missing and repeated keys, and for values out of
     /// range (see [`StrokeScript::check`]).
     pub fn from_json(file: &str, bytes: &[u8]) -> Result<Self, ScriptError> {
-        let named = || file.to_owned();
         if bytes.len() > MAX_FILE_BYTES {
             let bytes = bytes.len();
             let limit = MAX_FILE_BYTES;
-            return Err(ScriptError::TooLong { file: named(), bytes, limit });
+            return Err(ScriptError::TooLong { file: file.to_owned(), bytes, limit });
         }
         let text = std::str::from_utf8(bytes).map_err(|error| {
             let (sound, rest) = bytes.split_at(error.valid_up_to());
             let line = 1 + sound.iter().filter(|byte| **byte == b'\n').count();
-            ScriptError::Encoding { file: named(), line, byte: rest.first().copied().unwrap_or(0) }
+            let byte = rest.first().copied().unwrap_or(0);
+            ScriptError::Encoding { file: file.to_owned(), line, byte }
         })?;
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let script: Self =
             serde_json::from_str(text).map_err(|error| explained(file, text, &error))?;
-        script.check_values().map_err(|invalid| ScriptError::Value { file: named(), invalid })?;
+        script
+            .check_values()
+            .map_err(|invalid| ScriptError::Value { file: file.to_owned(), invalid })?;
         Ok(script)
     }
 

@@ -604,8 +604,9 @@ mod moments_tests {
 
     fn script() -> [Action; 6] {
         let wash = Action::Wash { brush: "round".to_owned() };
-        let canvas = || stroke(SurfaceId::Canvas);
-        [wash, canvas(), stroke(SurfaceId::Palette), canvas(), canvas(), Action::Undo {}]
+        let canvas = stroke(SurfaceId::Canvas);
+        let palette = stroke(SurfaceId::Palette);
+        [wash, canvas.clone(), palette, canvas.clone(), canvas, Action::Undo {}]
     }
 
     #[test]

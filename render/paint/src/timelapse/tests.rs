@@ -85,12 +85,10 @@ fn frames_grow_from_the_bare_canvas_to_the_end() {
 #[test]
 fn an_undone_passage_is_shown_on_request_only() {
     let (script, end) = recorded();
-    let shown = |with_undone| {
+    let [without, with] = [false, true].map(|with_undone| {
         let settings = TimelapseSettings { with_undone, ..settings(Interval::Actions(1)) };
         frames(&script, settings)
-    };
-    let without = shown(false);
-    let with = shown(true);
+    });
     assert_eq!((without.len(), with.len()), (3, 5));
     assert!(without[2] == end && with[4] == end);
     assert!(with[3] == with[1] && with[2] != with[1], "the second stroke comes and goes");
@@ -136,8 +134,9 @@ fn an_interrupted_run_continues_to_the_same_file() {
         assert_eq!(timelapse.write(&mut blank(), &again, half).unwrap(), None);
         let kept = timelapse.write(&mut blank(), &again, go_on).unwrap();
         assert!(kept.is_some_and(|kept| (1..6).contains(&kept)), "{kept:?} frames existed");
-        let read = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
-        assert!(read(name) == read(&format!("again-{name}")), "{name}: the same bytes");
+        let [written, resumed] = [name, &format!("again-{name}")]
+            .map(|name| std::fs::read(folder.path().join(name)).unwrap());
+        assert!(written == resumed, "{name}: the same bytes");
     }
 }
 

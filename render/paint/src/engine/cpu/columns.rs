@@ -268,8 +268,9 @@ impl SavedTile {
     }
 
     pub(super) fn cell(&self, index: usize) -> Cell {
-        let amount = |slot: usize| self.amounts[slot].as_ref().map_or(0, |list| list[index]);
-        Cell { pigments: std::array::from_fn(amount), vehicle: amount(SLOTS) }
+        let [pigments @ .., vehicle] =
+            self.amounts.each_ref().map(|list| list.as_ref().map_or(0, |list| list[index]));
+        Cell { pigments, vehicle }
     }
 }
 

@@ -460,18 +460,17 @@ impl Bed {
     #[inline(always)]
     pub(super) fn row(&self, (mut x, y): (usize, usize), mut out: &mut [i32]) {
         let (upper, lower, down) = between(y, self.blocks.height());
-        let row = |block: usize| self.blocks.row(block, 0, self.blocks.width());
-        let upper = row(upper);
-        let lower = row(lower);
+        let [upper, lower] =
+            [upper, lower].map(|block| self.blocks.row(block, 0, self.blocks.width()));
         while !out.is_empty() {
             let (left, right, share) = between(x, upper.len());
-            let column = |block: usize| weighted((upper[block], lower[block]), down);
-            let columns = (column(left), column(right));
+            let [left, right] =
+                [left, right].map(|block| weighted((upper[block], lower[block]), down));
             // The cells up to the middle of the right block.
             let count = (BLOCK - (x + BLOCK / 2) % BLOCK).min(out.len());
             let (cells, rest) = out.split_at_mut(count);
             for (i, out) in (0..).zip(cells) {
-                *out = weighted(columns, share + 2 * i);
+                *out = weighted((left, right), share + 2 * i);
             }
             (x, out) = (x + count, rest);
         }

@@ -51,13 +51,13 @@ fn random_layer(random: &mut ChaCha8Rng, width: usize, height: usize, highest: u
     for index in 0..width * height {
         // A third of the cells stay bare, and most pigments are in few cells.
         if random.random_range(0..3) > 0 {
-            let mut amount = || match random.random_range(0..4) {
-                0 => random.random_range(0..=highest / 9),
-                1 => random.random_range(0..100),
-                _ => 0,
-            };
-            let pigments = std::array::from_fn(|_| amount());
-            layer.set_cell(index, Cell { pigments, vehicle: amount() });
+            let [pigments @ .., vehicle]: [u32; SLOTS + 1] =
+                std::array::from_fn(|_| match random.random_range(0..4) {
+                    0 => random.random_range(0..=highest / 9),
+                    1 => random.random_range(0..100),
+                    _ => 0,
+                });
+            layer.set_cell(index, Cell { pigments, vehicle });
         }
     }
     layer
@@ -270,22 +270,23 @@ fn a_still_brush_moves_no_paint_across_sides_and_leaves_the_adhesion() {
 
 #[test]
 fn the_result_does_not_depend_on_the_number_of_threads() {
-    let play = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-        pool.install(|| {
-            let random = &mut ChaCha8Rng::seed_from_u64(4);
-            let canvas = (150, 130);
-            let brush = (60, 60);
-            let mut engine = painted(random, canvas, brush);
-            let contacts: Vec<_> = (0..20).map(|_| whole_contact(random, canvas, brush)).collect();
-            engine.apply_contacts(BRUSH, &MotionConstants::new(0.1, 0.7), &contacts);
-            (engine.wet(), engine.brush_paint(BRUSH))
-        })
-    };
-    let alone = play(1);
+    let alone = played_on(1);
     for threads in [2, 3, 5] {
-        assert!(play(threads) == alone, "{threads} threads");
+        assert!(played_on(threads) == alone, "{threads} threads");
     }
+}
+
+fn played_on(threads: usize) -> (Layer, Layer) {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+    pool.install(|| {
+        let random = &mut ChaCha8Rng::seed_from_u64(4);
+        let canvas = (150, 130);
+        let brush = (60, 60);
+        let mut engine = painted(random, canvas, brush);
+        let contacts: Vec<_> = (0..20).map(|_| whole_contact(random, canvas, brush)).collect();
+        engine.apply_contacts(BRUSH, &MotionConstants::new(0.1, 0.7), &contacts);
+        (engine.wet(), engine.brush_paint(BRUSH))
+    })
 }
 
 /// A contact that repeats a random one over the whole canvas, large enough for many threads.
@@ -295,15 +296,15 @@ fn whole_contact(
     brush: (usize, usize),
 ) -> Contact {
     let part = random_contact(random, (40, 40), brush, None);
-    let touch = |i: usize| {
+    let touches = (0..canvas.0 * canvas.1).map(|i| {
         let x = i % canvas.0 % part.rect.width;
         let y = i / canvas.0 % part.rect.height;
         let touch = part.touches[y * part.rect.width + x];
         let sharers = (canvas.0 * canvas.1) as u16;
         Touch { weights: touch.weights & 0xffff | u32::from(sharers) << 16, ..touch }
-    };
+    });
     let rect = Rect { x: 0, y: 0, width: canvas.0, height: canvas.1 };
-    Contact { rect, touches: (0..canvas.0 * canvas.1).map(touch).collect(), ..part.clone() }
+    Contact { rect, touches: touches.collect(), ..part.clone() }
 }
 
 #[test]
@@ -553,13 +554,13 @@ pub(super) fn sub_step(
         let cell = act(&wet.cell(index));
         wet.set_cell(index, cell);
     };
-    let near = |x: i64, y: i64| {
-        (-1..=1).any(|down| (-1..=1).any(|right| pressed(x + right, y + down) != NO_CONTACT))
-    };
     let moving = rect.grown(1, floor.bounds());
     for y in moving.y as i64..(moving.y + moving.height) as i64 {
         for x in moving.x as i64..(moving.x + moving.width) as i64 {
-            if motion.everywhere == 0 && !near(x, y) {
+            if motion.everywhere == 0
+                && (-1..=1)
+                    .all(|down| (-1..=1).all(|right| pressed(x + right, y + down) == NO_CONTACT))
+            {
                 continue;
             }
             let cell = start.cell(y as usize * width + x as usize);

@@ -65,11 +65,11 @@ impl Wick {
         if first >= cells || self.columns.places.is_empty() {
             return;
         }
-        let rows = || (first..cells).step_by(width);
-        self.level(rows(), head);
-        self.find_lacks(rows());
-        self.give(wicking, rows(), &mut head.cells);
-        self.deal(rows(), &mut head.cells);
+        let rows = (first..cells).step_by(width);
+        self.level(rows.clone(), head);
+        self.find_lacks(rows.clone());
+        self.give(wicking, rows.clone(), &mut head.cells);
+        self.deal(rows, &mut head.cells);
     }
 
     /// Finds the mean of each group, and stores it for the coat. `rows` are the indices of the
@@ -265,8 +265,10 @@ mod tests {
         for (width, height) in [(6, 20), (7, 9), (1, 12), (2, 1)] {
             let mut paint = head(width, height, |index| {
                 let full = index / width < height / 2 && random.random_range(0..5) > 0;
-                let mut amount = || if full { random.random_range(0..9_000_000) } else { 0 };
-                Cell { pigments: std::array::from_fn(|_| amount()), vehicle: amount() }
+                let amounts = [full; SLOTS + 1];
+                let [pigments @ .., vehicle] =
+                    amounts.map(|full| if full { random.random_range(0..9_000_000) } else { 0 });
+                Cell { pigments, vehicle }
             });
             let before = by_hair(&paint, width);
             for _ in 0..40 {

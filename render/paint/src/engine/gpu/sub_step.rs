@@ -182,8 +182,8 @@ pub(super) fn check_contact(contact: &Contact, bounds: Rect, brush_cells: u32) {
     let Contact { rect, touches, .. } = contact;
     assert_eq!(rect.intersection(bounds), *rect, "a contact must lie within {bounds:?}");
     assert_eq!(touches.len(), rect.width * rect.height, "a contact has a touch per cell");
-    let outside = |touch: &&Touch| touch.brush_cell >= brush_cells && touch.height < i32::MAX;
-    let outside = touches.iter().find(outside);
+    let outside =
+        touches.iter().find(|touch| touch.brush_cell >= brush_cells && touch.height < i32::MAX);
     assert!(outside.is_none(), "a touch must lie within the head's {brush_cells}: {outside:?}");
 }
 
