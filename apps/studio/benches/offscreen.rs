@@ -41,7 +41,8 @@ const DENSITY: f32 = 2.0;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let has = |word: &str| arguments.iter().any(|argument| argument == word);
+    let [on_cpu, flat_open] =
+        ["cpu", "flat"].map(|word| arguments.iter().any(|argument| argument == word));
     let size = arguments.iter().find_map(|argument| {
         let (width, height) = argument.split_once('x')?;
         Some((width.parse::<f32>().ok()?, height.parse::<f32>().ok()?))
@@ -51,8 +52,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
     let flat = folder.path().join("flat.exr");
     paintings::loaded_flat(&flat, 25.0)?;
-    let choice = if has("cpu") { BackendChoice::Cpu } else { BackendChoice::Gpu };
-    let open = has("flat").then_some(flat);
+    let choice = if on_cpu { BackendChoice::Cpu } else { BackendChoice::Gpu };
+    let open = flat_open.then_some(flat);
     let mut setup = WgpuSetupCreateNew::without_display_handle();
     setup.instance_descriptor.backends = wgpu::Backends::VULKAN;
     let state = create_render_state(WgpuSetup::CreateNew(setup), Default::default());
@@ -243,22 +244,15 @@ fn paint(
 }
 
 fn report(times: &[[f64; 2]], seconds: f64) {
-    let sorted = |of: &dyn Fn(&[f64; 2]) -> f64| {
-        let mut values: Vec<f64> = times.iter().map(of).collect();
-        values.sort_by(f64::total_cmp);
-        values
-    };
-    let report = |name: &str, values: Vec<f64>| {
-        let at = |share: f64| 1e3 * values[(share * (values.len() - 1) as f64) as usize];
-        println!(
-            "{name}: median {:.1} ms, 95 % {:.1} ms, worst {:.1} ms",
-            at(0.5),
-            at(0.95),
-            at(1.0)
-        );
-    };
     println!("{:.0} frames/s", times.len() as f64 / seconds);
-    report("interface", sorted(&|[step, _]| *step));
-    report("drawing", sorted(&|[_, draw]| *draw));
-    report("frame", sorted(&|[step, draw]| step + draw));
+    report_part("interface", times.iter().map(|[step, _]| *step).collect());
+    report_part("drawing", times.iter().map(|[_, draw]| *draw).collect());
+    report_part("frame", times.iter().map(|[step, draw]| step + draw).collect());
+}
+
+fn report_part(name: &str, mut seconds: Vec<f64>) {
+    seconds.sort_by(f64::total_cmp);
+    let [median, most, worst] = [0.5, 0.95, 1.0]
+        .map(|share: f64| 1e3 * seconds[(share * (seconds.len() - 1) as f64) as usize]);
+    println!("{name}: median {median:.1} ms, 95 % {most:.1} ms, worst {worst:.1} ms");
 }

@@ -111,9 +111,8 @@ impl Bench {
                 mixed = now - start;
             }
         }
-        let ms = |time: Duration| 1e3 * time.as_secs_f64();
-        let longest = ms(longest.max(last.elapsed()));
-        let mixed = ms(mixed);
+        let [longest, mixed] =
+            [longest.max(last.elapsed()), mixed].map(|time| 1e3 * time.as_secs_f64());
         println!(
             "switching to {inside:?}: at most {longest:.0} ms without a picture, mixed after {mixed:.0} ms"
         );

@@ -64,10 +64,12 @@ enum PaceName {
 }
 
 fn window_size(text: &str) -> Result<[f32; 2], String> {
-    let wrong = || "expected two lengths from 200 to 16384, such as 1280x800".to_owned();
-    let (width, height) = text.split_once(['x', 'X']).ok_or_else(wrong)?;
-    let length = |text: &str| text.parse().ok().filter(|l| (200.0..=16_384.0).contains(l));
-    Ok([length(width).ok_or_else(wrong)?, length(height).ok_or_else(wrong)?])
+    let size = text.split_once(['x', 'X']).and_then(|(width, height)| {
+        let [width, height] = [width, height]
+            .map(|text| text.parse::<f32>().ok().filter(|l| (200.0..=16_384.0).contains(l)));
+        Some([width?, height?])
+    });
+    size.ok_or_else(|| "expected two lengths from 200 to 16384, such as 1280x800".to_owned())
 }
 
 /// Settings that the window starts with.

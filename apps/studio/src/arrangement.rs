@@ -179,8 +179,7 @@ impl Arrangement {
     }
 
     fn bound_numbers(&mut self) {
-        let in_range = |height: &f32| HEIGHTS.contains(height);
-        self.palette_height = self.palette_height.filter(in_range);
+        self.palette_height = self.palette_height.filter(|height| HEIGHTS.contains(height));
         for side in Side::ALL {
             let column = self.column_mut(side);
             // NaN lies in no range.
@@ -188,7 +187,7 @@ impl Arrangement {
                 column.width = theme::PANEL_WIDTH;
             }
             for group in &mut column.groups {
-                group.height = group.height.filter(in_range);
+                group.height = group.height.filter(|height| HEIGHTS.contains(height));
             }
         }
     }
@@ -312,17 +311,16 @@ pub fn heights(requests: &[HeightRequest], room: f32) -> Vec<Option<f32>> {
     let least =
         |request: &HeightRequest| request.wanted.min(if request.whole { room } else { LEAST });
     let mut open: Vec<bool> = requests.iter().map(|request| !request.folded).collect();
-    loop {
-        let opened = || (0..requests.len()).filter(|&index| open[index]);
-        let needed: f32 = opened().map(|index| least(&requests[index])).sum();
+    let opened = loop {
+        let opened: Vec<usize> = (0..requests.len()).filter(|&index| open[index]).collect();
+        let needed: f32 = opened.iter().map(|&index| least(&requests[index])).sum();
         // If several were never used, we fold the lowest.
-        let oldest = opened().rev().min_by_key(|&index| requests[index].last_used);
+        let oldest = opened.iter().copied().rev().min_by_key(|&index| requests[index].last_used);
         match oldest {
-            Some(oldest) if needed > room && opened().count() > 1 => open[oldest] = false,
-            _ => break,
+            Some(oldest) if needed > room && opened.len() > 1 => open[oldest] = false,
+            _ => break opened,
         }
-    }
-    let opened: Vec<usize> = (0..requests.len()).filter(|&index| open[index]).collect();
+    };
     let mut shared: Vec<Option<f32>> = vec![None; requests.len()];
     let mut left = room - opened.iter().map(|&index| least(&requests[index])).sum::<f32>();
     for &index in &opened {
@@ -346,11 +344,11 @@ mod moves_tests {
     }
 
     fn written(arrangement: &Arrangement) -> String {
-        let side = |side| {
+        let [left, right] = [Side::Left, Side::Right].map(|side| {
             let groups = arrangement.column(side).groups.iter();
             groups.map(|group| group.panels.join("+")).collect::<Vec<_>>().join(" ")
-        };
-        format!("{}|{}", side(Side::Left), side(Side::Right))
+        });
+        format!("{left}|{right}")
     }
 
     fn moved(key: &str, place: Place) -> String {
@@ -402,20 +400,17 @@ mod moves_tests {
                 assert_ne!(moved(key, place), written(&standard()), "{key} {step:?}");
             }
         }
-        let place = |key, step| standard().place_after(key, step);
-        assert_eq!(place("files", Move::Down), None);
-        assert_eq!(place("files", Move::JoinBelow), None);
-        assert_eq!(place("layers", Move::JoinAbove), None);
-        assert_eq!(
-            moved("files", place("files", Move::Up).unwrap()),
-            "|brush+layers files light+color"
-        );
-        assert_eq!(
-            moved("brush", place("brush", Move::Down).unwrap()),
-            "|layers brush light+color files"
-        );
-        let other = place("color", Move::OtherColumn).unwrap();
-        assert_eq!(moved("color", other), "color|brush+layers light files");
+        for (key, step, wanted) in [
+            ("files", Move::Down, None),
+            ("files", Move::JoinBelow, None),
+            ("layers", Move::JoinAbove, None),
+            ("files", Move::Up, Some("|brush+layers files light+color")),
+            ("brush", Move::Down, Some("|layers brush light+color files")),
+            ("color", Move::OtherColumn, Some("color|brush+layers light files")),
+        ] {
+            let arrangement = standard().place_after(key, step).map(|place| moved(key, place));
+            assert_eq!(arrangement.as_deref(), wanted, "{key} {step:?}");
+        }
     }
 }
 

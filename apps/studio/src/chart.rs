@@ -38,8 +38,9 @@ impl Curve {
     #[must_use]
     pub fn colored(mut self, [red, green, blue]: [u8; 3]) -> Self {
         let seen = red.max(green).max(blue) >= 96;
-        let lift = |value: u8| if seen { value } else { value.saturating_add(96) };
-        self.color = Some(Color32::from_rgb(lift(red), lift(green), lift(blue)));
+        let [red, green, blue] =
+            [red, green, blue].map(|value| if seen { value } else { value.saturating_add(96) });
+        self.color = Some(Color32::from_rgb(red, green, blue));
         self
     }
 
@@ -254,8 +255,8 @@ mod tests {
 
     #[test]
     fn dark_colors_are_brightened() {
-        let drawn = |rgb| ramp().colored(rgb).color.unwrap();
-        assert_eq!(drawn([10, 20, 30]), Color32::from_rgb(106, 116, 126));
-        assert_eq!(drawn([200, 0, 30]), Color32::from_rgb(200, 0, 30));
+        let [dark, bright] = [[10, 20, 30], [200, 0, 30]].map(|rgb| ramp().colored(rgb).color);
+        assert_eq!(dark, Some(Color32::from_rgb(106, 116, 126)));
+        assert_eq!(bright, Some(Color32::from_rgb(200, 0, 30)));
     }
 }

@@ -60,21 +60,19 @@ impl Shortcut {
     /// # Errors
     /// `InvalidShortcut` if the key or a modifier has its own meaning.
     pub fn of_press(key: Key, held: Modifiers) -> Result<Self, InvalidShortcut> {
-        let reserved = |why| Err(InvalidShortcut::Reserved(why));
-        match key {
-            Key::Space => reserved(english("the space bar moves the view while it is held")),
-            Key::Escape => reserved(english("Escape closes windows")),
-            Key::Enter => reserved(english("Enter presses the main button of a dialog")),
-            Key::Copy | Key::Cut | Key::Paste => {
-                reserved(english("the system uses it for the clipboard"))
-            }
-            _ if held.alt => reserved(english("Alt picks a colour while it is held")),
+        let why = match key {
+            Key::Space => english("the space bar moves the view while it is held"),
+            Key::Escape => english("Escape closes windows"),
+            Key::Enter => english("Enter presses the main button of a dialog"),
+            Key::Copy | Key::Cut | Key::Paste => english("the system uses it for the clipboard"),
+            _ if held.alt => english("Alt picks a colour while it is held"),
             _ => {
                 let mut modifiers = Modifiers::NONE;
                 (modifiers.command, modifiers.shift) = (held.command, held.shift);
-                Ok(Self { modifiers, key })
+                return Ok(Self { modifiers, key });
             }
-        }
+        };
+        Err(InvalidShortcut::Reserved(why))
     }
 
     /// Text of the shortcut as this system names it, e.g. `Ctrl+Z`.
@@ -494,9 +492,9 @@ mod tests {
             (name.to_owned(), texts.into_iter().map(ToOwned::to_owned).collect())
         });
         let (map, faults) = Keymap::new(rows(), Vec::new(), &changes.into());
-        let press = |key, modifiers| map.easel.find(key, modifiers).map(|row| row.name.as_str());
-        assert_eq!(press(Key::K, Modifiers::NONE), Some("dry"));
-        assert_eq!(press(Key::Y, Modifiers::COMMAND), Some("undo"), "the first gets it");
+        let found = [(Key::K, Modifiers::NONE), (Key::Y, Modifiers::COMMAND)]
+            .map(|(key, modifiers)| map.easel.find(key, modifiers).map(|row| row.name.as_str()));
+        assert_eq!(found, [Some("dry"), Some("undo")], "the first gets it");
         assert_eq!(faults.len(), 3, "{faults:?}");
         for (fault, word) in faults.iter().zip(["`Hyper`", "`fly`", "Ctrl+Y of redo"]) {
             assert!(fault.contains(word), "{fault}: {word}");

@@ -128,10 +128,9 @@ mod tests {
     fn a_frame_waits_for_its_slot_and_not_longer() {
         let start = Instant::now();
         let slot = 16 * MS;
-        let after = |ms: u32| delay(Some(start), start + ms * MS, slot);
-        assert_eq!(after(0), 16 * MS);
-        assert_eq!(after(5), 11 * MS);
-        assert_eq!([after(16), after(900)], [Duration::ZERO; 2], "the last frame is older");
+        for (ms, wait) in [(0_u32, 16_u32), (5, 11), (16, 0), (900, 0)] {
+            assert_eq!(delay(Some(start), start + ms * MS, slot), wait * MS, "after {ms} ms");
+        }
         assert_eq!(delay(None, start, slot), Duration::ZERO, "the first frame");
         assert_eq!(delay(Some(start + 40 * MS), start, slot), slot, "never more than a slot");
     }

@@ -405,9 +405,9 @@ mod tests {
             let colors: Vec<[u8; 4]> = written
                 .match_indices("#")
                 .filter_map(|(at, _)| {
-                    let mut bytes = written[at + 1..].get(..11)?.split('_');
-                    let mut byte = || u8::from_str_radix(bytes.next()?, 16).ok();
-                    Some([byte()?, byte()?, byte()?, byte()?])
+                    let bytes = written[at + 1..].get(..11)?.split('_').take(4);
+                    let bytes = bytes.map(|byte| u8::from_str_radix(byte, 16).ok());
+                    bytes.collect::<Option<Vec<u8>>>()?.try_into().ok()
                 })
                 .collect();
             assert!(colors.len() > 20, "{} colours found in {written}", colors.len());

@@ -132,16 +132,15 @@ fn options([width, height]: [f32; 2]) -> NativeOptions {
 
 /// Chooses an adapter that can draw in the window, hardware before software.
 fn choose(adapters: &[Adapter], surface: Option<&Surface<'_>>) -> Result<Adapter, String> {
-    let draws =
-        |adapter: &&Adapter| surface.is_none_or(|surface| adapter.is_surface_supported(surface));
-    let best = adapters.iter().filter(draws).min_by_key(|adapter: &&Adapter| {
-        match adapter.get_info().device_type {
-            DeviceType::DiscreteGpu => 0,
-            DeviceType::IntegratedGpu => 1,
-            DeviceType::VirtualGpu => 2,
-            DeviceType::Other => 3,
-            DeviceType::Cpu => 4,
-        }
+    let able = adapters
+        .iter()
+        .filter(|adapter| surface.is_none_or(|surface| adapter.is_surface_supported(surface)));
+    let best = able.min_by_key(|adapter: &&Adapter| match adapter.get_info().device_type {
+        DeviceType::DiscreteGpu => 0,
+        DeviceType::IntegratedGpu => 1,
+        DeviceType::VirtualGpu => 2,
+        DeviceType::Other => 3,
+        DeviceType::Cpu => 4,
     });
     best.cloned().ok_or_else(|| "no Vulkan adapter can draw in this window".to_owned())
 }

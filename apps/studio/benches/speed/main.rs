@@ -96,12 +96,14 @@ fn speed(
     let all = program.figures()?;
     println!("  second  frames/s  sub-steps/s  behind  pen to screen ms  worst ms");
     let lines = &all[before.min(all.len())..];
-    let second = |line: &serde_json::Value| line["seconds"].as_f64().unwrap_or(0.0);
     let counted: Vec<&serde_json::Value> = lines
         .iter()
-        .filter(|line| (MARGIN..seconds - MARGIN).contains(&(second(line) - second(&lines[0]))))
+        .filter(|line| {
+            let [second, first] =
+                [*line, &lines[0]].map(|line| line["seconds"].as_f64().unwrap_or(0.0));
+            (MARGIN..seconds - MARGIN).contains(&(second - first))
+        })
         .collect();
-    let figure = |line: &serde_json::Value, name: &str| line[name].as_f64().unwrap_or(f64::NAN);
     for line in &counted {
         println!(
             "  {:6.1}  {:8.0}  {:11.0}  {:6.0}  {:16.1}  {:8.1}",
@@ -114,15 +116,18 @@ fn speed(
         );
     }
     let all = |name: &str| counted.iter().map(|line| figure(line, name)).collect::<Vec<f64>>();
-    let most = |name: &str| all(name).into_iter().fold(0.0, f64::max);
     println!(
         "  median: {:.0} frames/s, pen to screen {:.1} ms; worst {:.1} ms, {:.0} sub-steps behind",
         median(&all("frames_a_second")),
         median(&all("latency_ms")),
-        most("worst_latency_ms"),
-        most("behind"),
+        all("worst_latency_ms").into_iter().fold(0.0, f64::max),
+        all("behind").into_iter().fold(0.0, f64::max),
     );
     Ok(())
+}
+
+fn figure(line: &serde_json::Value, name: &str) -> f64 {
+    line[name].as_f64().unwrap_or(f64::NAN)
 }
 
 /// Prints the share of one core that the program takes at rest.

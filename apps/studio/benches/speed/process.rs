@@ -41,12 +41,12 @@ impl Usage {
     /// Memory in use now and at most so far, in words.
     pub(crate) fn memory(&self) -> String {
         let status = std::fs::read_to_string(self.folder.join("status")).unwrap_or_default();
-        let mb = |name: &str| {
+        let [now, most] = ["VmRSS:", "VmHWM:"].map(|name| {
             let line = status.lines().find_map(|line| line.strip_prefix(name));
             let number = line.and_then(|rest| rest.split_whitespace().next()?.parse().ok());
             number.map_or(f64::NAN, |kib: f64| kib * 1024.0 / 1e6)
-        };
-        format!("{:.0} MB, at most {:.0} MB", mb("VmRSS:"), mb("VmHWM:"))
+        });
+        format!("{now:.0} MB, at most {most:.0} MB")
     }
 
     /// Time of the processor so far.

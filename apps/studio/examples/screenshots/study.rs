@@ -348,8 +348,9 @@ pub(crate) fn samples(along: &[Place], pressure: f64) -> Vec<Sample> {
         for (leg, long) in along.windows(2).zip(&legs) {
             if left <= *long {
                 let share = left / long.max(1e-9);
-                let between = |from: f64, to: f64| from + share * (to - from);
-                return (between(leg[0].0, leg[1].0), between(leg[0].1, leg[1].1));
+                let from = leg[0];
+                let to = leg[1];
+                return (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1));
             }
             left -= long;
         }

@@ -82,9 +82,12 @@ fn point(window: &Window, [x, y]: [f32; 2]) -> Pos2 {
 
 /// Draws frames until some steps of time have passed.
 fn wait_steps(window: &mut Window, steps: u64) -> Result<(), Box<dyn Error>> {
-    let step = |volumes: &Volumes| volumes.state().map_or(0, |state| state.time.step);
     let until = steps + window.studio().volumes.as_ref().map_or(0, step);
     wait(window, |volumes| step(volumes) >= until)
+}
+
+fn step(volumes: &Volumes) -> u64 {
+    volumes.state().map_or(0, |state| state.time.step)
 }
 
 fn wait(window: &mut Window, done: impl Fn(&Volumes) -> bool) -> Result<(), Box<dyn Error>> {

@@ -308,9 +308,9 @@ pub(super) fn show_menus(ui: &mut Ui, state: MenuState, title: &str) -> Option<I
             (Menu::Help, tr("Help"), tr("Keys, first steps and a guided tour")),
         ] {
             let opened = menu_button(ui, name, |ui| {
-                let own = || entries().filter(move |entry| entry.menu == menu);
-                let ticks = own().any(|entry| checked(entry.intent, state).is_some());
-                for entry in own() {
+                let own: Vec<_> = entries().filter(|entry| entry.menu == menu).collect();
+                let ticks = own.iter().any(|entry| checked(entry.intent, state).is_some());
+                for entry in own {
                     if begins_group(entry.intent) {
                         ui.separator();
                     }
@@ -502,16 +502,14 @@ pub(super) fn height(context: &Context, message: Option<&Message>) -> f32 {
 /// Draws the status line. Returns whether you dismissed the message.
 pub(super) fn show_status(ui: &mut Ui, state: &StatusState) -> bool {
     let mut dismissed = false;
-    let faint = theme::colors(ui.ctx()).faint;
-    let small = |text: &str| RichText::new(text).small().color(faint);
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 14.0;
-        ui.label(small(state.backend))
+        ui.label(small(ui, state.backend))
             .on_hover_text(tr("Processor or graphics adapter that computes the paint"));
-        ui.label(small(&state.light)).on_hover_text(tr("The light of the painting"));
-        ui.label(small(&state.size))
+        ui.label(small(ui, &state.light)).on_hover_text(tr("The light of the painting"));
+        ui.label(small(ui, &state.size))
             .on_hover_text(tr("Size of the canvas in cells and in millimetres"));
-        ui.label(small(&state.view))
+        ui.label(small(ui, &state.view))
             .on_hover_text(tr("Zoom in screen pixels per cell, and rotation"));
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             let Some(message) = state.message else { return };
@@ -541,4 +539,9 @@ pub(super) fn show_status(ui: &mut Ui, state: &StatusState) -> bool {
         });
     });
     dismissed
+}
+
+/// Text of a status line.
+pub(super) fn small(ui: &Ui, text: &str) -> RichText {
+    RichText::new(text).small().color(theme::colors(ui.ctx()).faint)
 }

@@ -256,10 +256,8 @@ impl CropTool {
     pub fn bar(&mut self, ui: &mut Ui, cell_mm: f64) -> Option<CropAnswer> {
         let mut answer = None;
         let rect = self.rect();
-        let mm = |cells: usize| cells as f64 * cell_mm;
         ui.horizontal_wrapped(|ui| {
-            let width = mm(rect.width);
-            let height = mm(rect.height);
+            let [width, height] = [rect.width, rect.height].map(|cells| cells as f64 * cell_mm);
             ui.label(RichText::new(format!("{width:.1} x {height:.1} mm")).strong());
             ui.weak(tr_format!(
                 "{width} x {height} cells",

@@ -38,8 +38,8 @@ impl Frames {
     /// Statistics of the last second.
     #[must_use]
     pub fn rate(&self) -> FrameRate {
-        let ms = |time: &Duration| time.as_secs_f64() * 1000.0;
-        let latency_values: Vec<f64> = self.latencies.iter().map(|(_, time)| ms(time)).collect();
+        let latency_values: Vec<f64> =
+            self.latencies.iter().map(|(_, time)| time.as_secs_f64() * 1000.0).collect();
         let latency_ms = latency_values.iter().fold(0.0, |sum, ms| sum + ms)
             / latency_values.len().max(1) as f64;
         let worst_ms = latency_values.iter().copied().fold(0.0, f64::max);

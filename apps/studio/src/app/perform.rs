@@ -569,18 +569,6 @@ impl Studio {
     /// The place that a step points at and how its card is aligned there: a corner or side of the
     /// card, and the point that it touches.
     fn place_of(&self, step: TourStep, context: &Context) -> Option<(Rect, Pos2, Align2)> {
-        let above =
-            |place: Rect| (place, place.center_top() - vec2(0.0, GAP), Align2::CENTER_BOTTOM);
-        let tab = |tab: Tab| {
-            let place = intent::rect(context, Part::Tab(tab.name()))?;
-            let canvas = self.canvas.rect();
-            let left = canvas.right() - GAP;
-            // Beside a tab low in the window, the card would hide the tubes.
-            if place.top() > canvas.center().y {
-                return Some((place, Pos2::new(left, canvas.bottom() - GAP), Align2::RIGHT_BOTTOM));
-            }
-            Some((place, Pos2::new(left, place.top()), Align2::RIGHT_TOP))
-        };
         match step {
             TourStep::Load => intent::rect(context, Part::Tubes).map(above),
             TourStep::Mix => Some(above(self.palette.rect())),
@@ -592,9 +580,20 @@ impl Studio {
                 let place = intent::rect(context, Part::Button(Intent::Dry))?;
                 Some((place, place.right_center() + vec2(GAP, 0.0), Align2::LEFT_CENTER))
             }
-            TourStep::Glaze => tab(Tab::Brush),
-            TourStep::Relight => tab(Tab::Light),
+            TourStep::Glaze => self.beside_tab(Tab::Brush, context),
+            TourStep::Relight => self.beside_tab(Tab::Light, context),
         }
+    }
+
+    fn beside_tab(&self, tab: Tab, context: &Context) -> Option<(Rect, Pos2, Align2)> {
+        let place = intent::rect(context, Part::Tab(tab.name()))?;
+        let canvas = self.canvas.rect();
+        let left = canvas.right() - GAP;
+        // Beside a tab low in the window, the card would hide the tubes.
+        if place.top() > canvas.center().y {
+            return Some((place, Pos2::new(left, canvas.bottom() - GAP), Align2::RIGHT_BOTTOM));
+        }
+        Some((place, Pos2::new(left, place.top()), Align2::RIGHT_TOP))
     }
 
     fn tour_card(&self, ui: &mut Ui) -> Option<Pressed> {
@@ -683,6 +682,11 @@ fn is_covered(context: &Context, region: Rect) -> bool {
             layer.order != Order::Background && rect.height() > 1.0 && rect.intersects(region)
         })
     })
+}
+
+/// A `place` with a card above it.
+fn above(place: Rect) -> (Rect, Pos2, Align2) {
+    (place, place.center_top() - vec2(0.0, GAP), Align2::CENTER_BOTTOM)
 }
 
 fn canvas_lines(context: &Context) -> [String; 3] {

@@ -154,15 +154,16 @@ impl Ring {
         let from = self.angle(index as f32 - 0.5);
         let to = self.angle(index as f32 + 0.5);
         let pieces = ((to - from) / PIECE).ceil().max(1.0) as usize;
-        let point = |radius: f32, share: f32| {
-            // The gap is one point on either side, at any radius.
-            let gap = 1.0 / radius;
-            let angle = from + gap + (to - from - 2.0 * gap) * share;
-            center + radius * direction(angle)
-        };
         let shares = (0..=pieces).map(|piece| piece as f32 / pieces as f32);
         shares
-            .map(|share| [point(self.inner + 1.0, share), point(self.outer - 1.0, share)])
+            .map(|share| {
+                [self.inner + 1.0, self.outer - 1.0].map(|radius| {
+                    // The gap is one point on either side, at any radius.
+                    let gap = 1.0 / radius;
+                    let angle = from + gap + (to - from - 2.0 * gap) * share;
+                    center + radius * direction(angle)
+                })
+            })
             .collect()
     }
 
@@ -410,8 +411,9 @@ mod tests {
     fn wedges_go_clockwise_from_the_top_and_meet_half_way() {
         assert_eq!(RING.wedge_at(vec2(0.0, -60.0)), Some(0), "the top");
         assert_eq!(RING.wedge_at(vec2(60.0, 0.0)), Some(2), "the right");
-        let between = |degrees: f32| RING.wedge_at(60.0 * direction(degrees.to_radians()));
-        assert_eq!([between(22.0), between(23.0), between(-23.0)], [Some(0), Some(1), Some(7)]);
+        let between = [22.0_f32, 23.0, -23.0]
+            .map(|degrees| RING.wedge_at(60.0 * direction(degrees.to_radians())));
+        assert_eq!(between, [Some(0), Some(1), Some(7)]);
     }
 
     #[test]

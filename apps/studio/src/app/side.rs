@@ -273,19 +273,23 @@ mod tests {
 
     #[test]
     fn the_edges_of_a_group_take_a_new_group_and_its_middle_a_tab() {
-        let group = |index, rect| DrawnGroup { side: Side::Right, index, rect };
-        let groups = [group(0, rect(30.0, 430.0)), group(1, rect(436.0, 460.0))];
+        let groups = [(0, rect(30.0, 430.0)), (1, rect(436.0, 460.0))]
+            .map(|(index, rect)| DrawnGroup { side: Side::Right, index, rect });
         let left = Rect::from_min_max(pos2(42.0, 30.0), pos2(90.0, 800.0));
         let columns = [(Side::Left, left), (Side::Right, rect(30.0, 800.0))];
-        let place = |x, y| place_at(pos2(x, y), &groups, &columns).map(|(place, _)| place);
-        assert_eq!(place(1100.0, 40.0), Some(Place::Before(Side::Right, 0)));
-        assert_eq!(place(1100.0, 200.0), Some(Place::Tab(Side::Right, 0)));
-        assert_eq!(place(1100.0, 400.0), Some(Place::Before(Side::Right, 1)));
-        assert_eq!(place(1100.0, 433.0), Some(Place::Before(Side::Right, 1)));
-        assert_eq!(place(1100.0, 448.0), Some(Place::Tab(Side::Right, 1)));
-        assert_eq!(place(1100.0, 458.0), Some(Place::Before(Side::Right, 2)));
-        assert_eq!(place(1100.0, 700.0), Some(Place::Before(Side::Right, 2)));
-        assert_eq!(place(60.0, 300.0), Some(Place::Before(Side::Left, 0)));
-        assert_eq!(place(600.0, 300.0), None);
+        for (x, y, wanted) in [
+            (1100.0, 40.0, Some(Place::Before(Side::Right, 0))),
+            (1100.0, 200.0, Some(Place::Tab(Side::Right, 0))),
+            (1100.0, 400.0, Some(Place::Before(Side::Right, 1))),
+            (1100.0, 433.0, Some(Place::Before(Side::Right, 1))),
+            (1100.0, 448.0, Some(Place::Tab(Side::Right, 1))),
+            (1100.0, 458.0, Some(Place::Before(Side::Right, 2))),
+            (1100.0, 700.0, Some(Place::Before(Side::Right, 2))),
+            (60.0, 300.0, Some(Place::Before(Side::Left, 0))),
+            (600.0, 300.0, None),
+        ] {
+            let place = place_at(pos2(x, y), &groups, &columns).map(|(place, _)| place);
+            assert_eq!(place, wanted, "{x} {y}");
+        }
     }
 }

@@ -541,7 +541,7 @@ impl Studio {
             return;
         };
         let (width, height) = painting.canvas_cells;
-        let mm = |cells: usize| cells as f64 * painting.cell_mm;
+        let [width_mm, height_mm] = [width, height].map(|cells| cells as f64 * painting.cell_mm);
         let view = self.canvas.view;
         let turn = (view.snapped_turn().to_degrees().round() as i64).rem_euclid(360);
         let turn = if turn == 0 { String::new() } else { tr_format!(", {turn} degrees", turn) };
@@ -552,7 +552,7 @@ impl Studio {
         let state = bars::StatusState {
             message: self.message.as_ref().filter(|message| message.is_displayed(now)),
             view: format!("{:.0} %{turn}{mirrored}", view.zoom * 100.0),
-            size: format!("{width} x {height}, {:.0} x {:.0} mm", mm(width), mm(height)),
+            size: format!("{width} x {height}, {width_mm:.0} x {height_mm:.0} mm"),
             light: format!("{}{}", light.illuminant, second.unwrap_or_default()),
             backend: &painting.backend,
         };

@@ -254,18 +254,20 @@ impl Studio {
             || self.shows_sheet(context)
             || Popup::is_any_open(context)
             || context.memory(|memory| memory.top_modal_layer().is_some());
-        let covered = |point| {
-            let above = context.layer_id_at(point);
-            blocked
-                || above.is_some_and(|layer| layer.order != Order::Background)
-                || self.canvas.split_handle().is_some_and(|handle| handle.contains(point))
-                || self.aid_handles.iter().any(|handle| handle.contains(point))
-                || self.palette.light_switch().is_some_and(|switch| switch.contains(point))
-                || self.visible.palette
-                    && self.palette.rect().contains(point)
-                    && self.palette.position(point).is_none()
+        let view = PenTargets {
+            surfaces: &transforms,
+            covered: &|point| {
+                let above = context.layer_id_at(point);
+                blocked
+                    || above.is_some_and(|layer| layer.order != Order::Background)
+                    || self.canvas.split_handle().is_some_and(|handle| handle.contains(point))
+                    || self.aid_handles.iter().any(|handle| handle.contains(point))
+                    || self.palette.light_switch().is_some_and(|switch| switch.contains(point))
+                    || self.visible.palette
+                        && self.palette.rect().contains(point)
+                        && self.palette.position(point).is_none()
+            },
         };
-        let view = PenTargets { surfaces: &transforms, covered: &covered };
         // We copy this, because `covered` queries the context while the events are processed.
         let modifiers = context.input(|input| input.modifiers);
         self.pen.guide = self.aids.leading();

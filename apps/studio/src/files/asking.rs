@@ -454,9 +454,8 @@ impl Files {
         start: Arc<Vec<u8>>,
         revision: u64,
     ) {
-        let changed =
-            |state: &Arc<session::PaintingState>| state.stroke_open || state.revision != revision;
-        if self.painting.as_ref().is_none_or(changed) {
+        let state = self.painting.as_ref();
+        if state.is_none_or(|state| state.stroke_open || state.revision != revision) {
             let text = tr("the painting changed while it was cropped");
             return self.report(Problem::new(text, tr("crop it again")));
         }

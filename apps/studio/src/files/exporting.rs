@@ -238,19 +238,19 @@ impl TimelapseExport {
         ui.add_space(4.0);
         Grid::new("timelapse").num_columns(2).spacing([12.0, 6.0]).show(ui, |ui| {
             self.interval_rows(ui);
-            let mut row = |name: &str, tip: &str, drag: DragValue<'_>| {
-                ui.label(name);
-                ui.add(drag).on_hover_text(tip);
-                ui.end_row();
-            };
             let size = DragValue::new(&mut self.longest_px).range(16..=16_384).suffix(" px");
-            row(tr("Longest side"), tr("A canvas with fewer cells keeps them"), size);
+            number_row(ui, tr("Longest side"), tr("A canvas with fewer cells keeps them"), size);
             if self.form != TimelapseForm::Frames {
                 let rate =
                     DragValue::new(&mut self.rate).range(0.1..=100.0).suffix(tr(" a second"));
-                row(tr("Frames"), tr("Frames that are shown in a second"), rate);
+                number_row(ui, tr("Frames"), tr("Frames that are shown in a second"), rate);
                 let hold = DragValue::new(&mut self.hold_seconds).range(0.0..=60.0).suffix(" s");
-                row(tr("Hold the end"), tr("How long the last frame is shown"), hold.speed(0.1));
+                number_row(
+                    ui,
+                    tr("Hold the end"),
+                    tr("How long the last frame is shown"),
+                    hold.speed(0.1),
+                );
             }
         });
         ui.checkbox(&mut self.with_undone, tr("Show what was undone"))
@@ -278,6 +278,12 @@ impl TimelapseExport {
             .on_hover_text(tr("Actions between two frames"));
         ui.end_row();
     }
+}
+
+fn number_row(ui: &mut Ui, name: &str, tip: &str, drag: DragValue<'_>) {
+    ui.label(name);
+    ui.add(drag).on_hover_text(tip);
+    ui.end_row();
 }
 
 /// Hidden folder beside `path` for frames. We need it only until `path` is written.

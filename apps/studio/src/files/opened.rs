@@ -330,8 +330,9 @@ fn thumbnail(document: &Document, light: &Light) -> RgbImage {
         return RgbImage::new(1, 1);
     };
     let longest = width.max(height).max(1);
-    let side = |length: u32| (length * MAX_SIDE.min(longest) / longest).max(1);
-    let small = image::imageops::resize(&linear, side(width), side(height), FilterType::Triangle);
+    let [width, height] =
+        [width, height].map(|length| (length * MAX_SIDE.min(longest) / longest).max(1));
+    let small = image::imageops::resize(&linear, width, height, FilterType::Triangle);
     let encoded = small.pixels().flat_map(|pixel| {
         let linear = spectra::color::Rgb(pixel.0.map(|v| f64::from(v.clamp(0.0, 1.0))));
         linear.encoded().0.map(|v| (v * 255.0).round() as u8)

@@ -210,13 +210,14 @@ impl SwatchFormat {
         book: &SwatchBook,
         (library, weights): (&PigmentLibrary, &TristimulusWeights),
     ) -> Result<(), Problem> {
-        let colors = || book.colors(library, weights);
         let bytes = match self {
             Self::Json => book.to_json().into_bytes(),
             Self::Gpl => {
-                write_gpl(&colors()).map_err(|error| Problem::from_error(&error))?.into_bytes()
+                let file = write_gpl(&book.colors(library, weights));
+                file.map_err(|error| Problem::from_error(&error))?.into_bytes()
             }
-            Self::Ase => write_ase(&colors()).map_err(|error| Problem::from_error(&error))?,
+            Self::Ase => write_ase(&book.colors(library, weights))
+                .map_err(|error| Problem::from_error(&error))?,
         };
         Ok(write_whole(path, &bytes)?)
     }

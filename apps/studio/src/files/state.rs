@@ -207,8 +207,10 @@ impl Files {
     #[must_use]
     pub fn title(&self) -> String {
         let stem = self.path.as_ref().and_then(|path| path.file_stem());
-        let title = || self.painting.as_ref().map(|state| state.title.clone()).unwrap_or_default();
-        let title = stem.map_or_else(title, |stem| stem.to_string_lossy().into_owned());
+        let title = match stem {
+            Some(stem) => stem.to_string_lossy().into_owned(),
+            None => self.painting.as_ref().map(|state| state.title.clone()).unwrap_or_default(),
+        };
         if title.is_empty() { "untitled".to_owned() } else { title }
     }
 

@@ -503,20 +503,23 @@ impl Files {
                 self.show_lost(ui, &mut clicked);
                 self.show_jobs(ui, &mut clicked);
                 for (index, notice) in self.notices.iter().enumerate() {
-                    let words = |ui: &mut Ui| {
-                        ui.label(&notice.text);
-                        if let Some(hint) = &notice.hint {
-                            ui.label(RichText::new(hint).weak());
-                        }
-                    };
-                    card(ui, words, |ui| {
-                        if notice.until.is_some() {
-                            return;
-                        }
-                        if ui.button("OK").on_hover_text(tr("Close this message")).clicked() {
-                            clicked = Some(Clicked::CloseNotice(index));
-                        }
-                    });
+                    card(
+                        ui,
+                        |ui| {
+                            ui.label(&notice.text);
+                            if let Some(hint) = &notice.hint {
+                                ui.label(RichText::new(hint).weak());
+                            }
+                        },
+                        |ui| {
+                            if notice.until.is_some() {
+                                return;
+                            }
+                            if ui.button("OK").on_hover_text(tr("Close this message")).clicked() {
+                                clicked = Some(Clicked::CloseNotice(index));
+                            }
+                        },
+                    );
                 }
             });
         match clicked {
@@ -568,7 +571,7 @@ impl Files {
             }
             card(
                 ui,
-                |ui: &mut Ui| bar(ui, job.job.label(), job.job.fraction()),
+                |ui| bar(ui, job.job.label(), job.job.fraction()),
                 |ui| {
                     let cancel = ui.button(tr("Cancel"));
                     if cancel
@@ -582,14 +585,17 @@ impl Files {
         }
         if let Some((done, of)) = self.replay {
             let fraction = done as f32 / of.max(1) as f32;
-            let words = |ui: &mut Ui| {
-                bar(ui, &tr_format!("playing, action {done} of {of}", done, of), Some(fraction));
-            };
-            card(ui, words, |ui| {
-                if ui.button(tr("Stop")).on_hover_text(tr("Ends the recording here")).clicked() {
-                    *clicked = Some(Clicked::CancelReplay);
-                }
-            });
+            let label = tr_format!("playing, action {done} of {of}", done, of);
+            card(
+                ui,
+                |ui| bar(ui, &label, Some(fraction)),
+                |ui| {
+                    if ui.button(tr("Stop")).on_hover_text(tr("Ends the recording here")).clicked()
+                    {
+                        *clicked = Some(Clicked::CancelReplay);
+                    }
+                },
+            );
         }
     }
 }
@@ -644,13 +650,13 @@ pub(super) fn read_painting(
 /// Reads a file of the autosave of `title`. The painter never chose the file's name, so that a
 /// problem names the autosave instead.
 fn read_autosaved(path: &Path, title: &str, task: &Task) -> Result<Box<Document>, JobError> {
-    let named = |problem: Problem| {
-        let autosave = tr_format!("the autosave of {title}", title);
-        Problem { text: problem.text.replace(&path.display().to_string(), &autosave), ..problem }
-    };
     match read_painting(path, task) {
         Ok((document, _)) => Ok(document),
-        Err(JobError::Failed(problem)) => Err(named(problem).into()),
+        Err(JobError::Failed(problem)) => {
+            let autosave = tr_format!("the autosave of {title}", title);
+            let text = problem.text.replace(&path.display().to_string(), &autosave);
+            Err(Problem { text, ..problem }.into())
+        }
         Err(cancelled) => Err(cancelled),
     }
 }
@@ -690,21 +696,24 @@ enum Clicked {
 fn lost_card(ui: &mut Ui, lost: &LostSession, kind: &str) -> Option<bool> {
     let then = SystemTime::UNIX_EPOCH + Duration::from_secs(lost.meta.seconds);
     let when = ago(then, SystemTime::now());
-    let words = |ui: &mut Ui| {
-        ui.label(tr_format!("A {kind} was not saved", kind));
-        let details = tr_format!("{title}, autosaved {when}", title = lost.meta.title, when);
-        ui.label(RichText::new(details).weak());
-    };
     let mut answer = None;
-    card(ui, words, |ui| {
-        if ui.button(tr("Discard")).on_hover_text(tr("Deletes the autosaved copy")).clicked() {
-            answer = Some(false);
-        }
-        let tip = tr_format!("Opens the {kind} as it was autosaved", kind);
-        if ui.button(tr("Recover")).on_hover_text(tip).clicked() {
-            answer = Some(true);
-        }
-    });
+    card(
+        ui,
+        |ui| {
+            ui.label(tr_format!("A {kind} was not saved", kind));
+            let details = tr_format!("{title}, autosaved {when}", title = lost.meta.title, when);
+            ui.label(RichText::new(details).weak());
+        },
+        |ui| {
+            if ui.button(tr("Discard")).on_hover_text(tr("Deletes the autosaved copy")).clicked() {
+                answer = Some(false);
+            }
+            let tip = tr_format!("Opens the {kind} as it was autosaved", kind);
+            if ui.button(tr("Recover")).on_hover_text(tip).clicked() {
+                answer = Some(true);
+            }
+        },
+    );
     answer
 }
 

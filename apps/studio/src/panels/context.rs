@@ -258,15 +258,14 @@ fn candidates(painting: &PaintingState, reach_mm: f64) -> Vec<[f64; 2]> {
     let cells = painting.palette_cells;
     let reach = reach_mm / painting.cell_mm;
     let step = (reach_mm / painting.cell_mm).max(1.0);
-    let along = |size: usize| (size as f64 / step) as usize;
-    let rim = |[x, y]: [f64; 2]| {
+    let [columns, rows] = [cells.0, cells.1].map(|size| (size as f64 / step) as usize);
+    let rows = (1..=rows).map(|row| row as f64 * step);
+    let all = rows.flat_map(|y| (1..=columns).map(move |column| [column as f64 * step, y]));
+    let on_wood = all.filter(|&[x, y]| {
         let turns = (0..16).map(|turn| f64::from(turn) * TAU / 16.0);
-        turns.map(move |turn| [x + reach * turn.cos(), y + reach * turn.sin()])
-    };
-    let rows = (1..=along(cells.1)).map(|row| row as f64 * step);
-    let all = rows.flat_map(|y| (1..=along(cells.0)).map(move |column| [column as f64 * step, y]));
-    let on_wood =
-        all.filter(|&place| rim(place).all(|place| Outline::Palette.contains(place, cells)));
+        let mut rim = turns.map(|turn| [x + reach * turn.cos(), y + reach * turn.sin()]);
+        rim.all(|place| Outline::Palette.contains(place, cells))
+    });
     on_wood.map(|place| place.map(|cells| cells * painting.cell_mm)).collect()
 }
 

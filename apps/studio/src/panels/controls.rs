@@ -6,9 +6,9 @@ use std::sync::Arc;
 
 use eframe::egui::text::{LayoutJob, TextWrapping};
 use eframe::egui::{
-    Align, Button, Color32, CornerRadius, FontId, Galley, Id, Key, Layout, Modifiers, Painter,
-    Rect, Response, Role, Sense, Shape, Slider, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo,
-    pos2, vec2,
+    Align, Button, Color32, CornerRadius, EventFilter, FontId, Galley, Id, Key, Layout, Modifiers,
+    Painter, Rect, Response, Role, Sense, Shape, Slider, Stroke, StrokeKind, TextStyle, Ui,
+    WidgetInfo, pos2, vec2,
 };
 
 use crate::language::{tr, tr_format};
@@ -25,6 +25,19 @@ const TRACK: f32 = 44.0;
 /// Extra width of a number in touch mode, in points.
 pub(super) fn touch_padding(ui: &Ui) -> f32 {
     if theme::is_touch(ui.ctx()) { 18.0 } else { 0.0 }
+}
+
+/// Arrow key steps to the right and up in this frame, if the control has the focus.
+pub(super) fn arrow_keys(ui: &Ui, response: &Response) -> (f64, f64) {
+    if !response.has_focus() {
+        return (0.0, 0.0);
+    }
+    let arrows =
+        EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+    let keys = [Key::ArrowRight, Key::ArrowLeft, Key::ArrowUp, Key::ArrowDown];
+    let [right, left, up, down] = keys.map(|key| ui.input(|input| input.num_presses(key)) as f64);
+    (right - left, up - down)
 }
 
 /// Adds a slider with its label and number, as wide as the panel.
@@ -286,7 +299,8 @@ fn fitted(
     words: &str,
 ) -> Arc<Galley> {
     let usual = style.resolve(ui.style());
-    let lay = |size: f32| {
+    let mut size = usual.size;
+    loop {
         let font = FontId { size, family: usual.family.clone() };
         let height = ui.fonts_mut(|fonts| fonts.row_height(&font));
         let rows = ((rect.height() + 2.0 * OVER) / height).floor().max(1.0);
@@ -297,15 +311,12 @@ fn fitted(
             ..TextWrapping::default()
         };
         job.halign = align;
-        ui.painter().layout_job(job)
-    };
-    let mut size = usual.size;
-    let mut laid = lay(size);
-    while !is_whole(&laid) && size > SMALLEST {
+        let laid = ui.painter().layout_job(job);
+        if is_whole(&laid) || size <= SMALLEST {
+            return laid;
+        }
         size = (size - 0.5).max(SMALLEST);
-        laid = lay(size);
     }
-    laid
 }
 
 /// Whether nothing is truncated, and no word is broken.

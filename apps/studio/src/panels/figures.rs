@@ -45,9 +45,10 @@ pub fn overlay(ui: &Ui, over: Rect, rate: FrameRate, worker: Performance, backen
     let font = FontId::proportional(size);
     let painter = ui.painter().with_clip_rect(over);
     let lines = lines(rate, worker, backend);
-    let galley =
-        |text: &str| painter.layout_no_wrap(text.to_owned(), font.clone(), theme::BOARD_TEXT);
-    let widest = lines.iter().map(|(_, value)| galley(value).size().x).fold(60.0, f32::max);
+    let widths = lines.iter().map(|(_, value)| {
+        painter.layout_no_wrap(value.clone(), font.clone(), theme::BOARD_TEXT).size().x
+    });
+    let widest = widths.fold(60.0, f32::max);
     let size = vec2(value_at + widest + 12.0, row * lines.len() as f32 + 10.0);
     let board = Rect::from_min_size(over.min + vec2(10.0, 10.0), size);
     painter.rect_filled(board, theme::CORNER_RADIUS, theme::BOARD);

@@ -5,8 +5,8 @@
 //! dragging it out. A line marks the present pressure.
 
 use eframe::egui::{
-    Align2, Context, DragValue, EventFilter, Grid, Id, Key, Painter, Pos2, Rect, Response, Role,
-    Sense, Shape, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo, pos2, vec2,
+    Align2, Context, DragValue, Grid, Id, Key, Painter, Pos2, Rect, Response, Role, Sense, Shape,
+    Stroke, StrokeKind, TextStyle, Ui, WidgetInfo, pos2, vec2,
 };
 use session::brushes::{
     BrushOptions, CurvePoints, LengthUnit, PressureCurve, StabiliserMethod, StabiliserSettings,
@@ -15,7 +15,7 @@ use session::brushes::{
 use web_time::Instant;
 
 use crate::language::{brush_label, tr, tr_format};
-use crate::panels::controls::button;
+use crate::panels::controls::{arrow_keys, button};
 use crate::pen::{Pen, PenSettings, ReportKind, TestField, TestPoint};
 use crate::{floating, theme};
 
@@ -348,14 +348,16 @@ fn test_field(ui: &mut Ui, field: &mut TestField, pen: &Pen) {
 
 fn draw_stroke(painter: &Painter, rect: Rect, stroke: &[TestPoint]) {
     let color = theme::colors(painter.ctx()).strong;
-    let width = |point: &TestPoint| WIDEST * point.pressure as f32;
-    let place = |point: &TestPoint| rect.min + point.at.to_vec2();
-    for point in stroke {
-        painter.circle_filled(place(point), 0.5 * width(point), color);
+    let dots: Vec<(Pos2, f32)> = stroke
+        .iter()
+        .map(|point| (rect.min + point.at.to_vec2(), WIDEST * point.pressure as f32))
+        .collect();
+    for &(place, width) in &dots {
+        painter.circle_filled(place, 0.5 * width, color);
     }
-    for pair in stroke.windows(2) {
-        let width = 0.5 * (width(&pair[0]) + width(&pair[1]));
-        painter.line_segment([place(&pair[0]), place(&pair[1])], Stroke::new(width, color));
+    for pair in dots.windows(2) {
+        let width = 0.5 * (pair[0].1 + pair[1].1);
+        painter.line_segment([pair[0].0, pair[1].0], Stroke::new(width, color));
     }
 }
 
@@ -462,18 +464,8 @@ fn move_point(
         && let Some(pointer) = response.interact_pointer_pos()
     {
         points.move_to(index, of_window(inner, pointer));
-    } else if response.has_focus() {
-        let arrows = EventFilter {
-            horizontal_arrows: true,
-            vertical_arrows: true,
-            ..EventFilter::default()
-        };
-        ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
-        let (right, up) = ui.input(|input| {
-            let presses = |key| input.num_presses(key) as f64;
-            let right = presses(Key::ArrowRight) - presses(Key::ArrowLeft);
-            (right, presses(Key::ArrowUp) - presses(Key::ArrowDown))
-        });
+    } else {
+        let (right, up) = arrow_keys(ui, response);
         if (right, up) != (0.0, 0.0) {
             points.move_to(index, [x + STEP * right, y + STEP * up]);
         }

@@ -398,8 +398,8 @@ impl Exchange {
         self.open = open;
         if let Some(to) = chosen.flatten() {
             for layer in layers(cx.painting, self.scope, self.from, to) {
-                let name = |pigment: PigmentId| catalogue.name(pigment).to_owned();
-                cx.act(Action::Swap { layer, from: name(self.from), to: name(to) });
+                let [from, to] = [self.from, to].map(|pigment| catalogue.name(pigment).to_owned());
+                cx.act(Action::Swap { layer, from, to });
             }
             self.open = false;
         }
@@ -547,10 +547,12 @@ mod tests {
         assert!(!Arc::ptr_eq(&first, &known.under(&library, &other)), "another light");
 
         let [white, blue] = ["Zinc White", "Prussian Blue"].map(|n| library.find(n).unwrap());
-        let sums = |srgb: [u8; 3]| srgb.map(u32::from).iter().sum::<u32>();
-        assert!(sums(first.colors(white).masstone_srgb) > 690, "{:?}", first.colors(white));
-        let blue = first.colors(blue);
-        assert!(sums(blue.masstone_srgb) < sums(blue.tint_srgb.unwrap()), "a tint is lighter");
+        let [white, blue] = [white, blue].map(|pigment| first.colors(pigment));
+        let [white_sum, blue_sum, tint_sum] =
+            [white.masstone_srgb, blue.masstone_srgb, blue.tint_srgb.unwrap()]
+                .map(|srgb| srgb.map(u32::from).iter().sum::<u32>());
+        assert!(white_sum > 690, "{white:?}");
+        assert!(blue_sum < tint_sum, "a tint is lighter");
     }
 
     #[test]
@@ -558,17 +560,16 @@ mod tests {
         let library = Arc::new(PigmentLibrary::van_gogh_oils());
         let light = Arc::new(Light::named(&library, "D65", "1931-2").unwrap());
         let catalogue = Catalogue::new(&library, &light);
-        let card_lines = |name: &str| lines(&catalogue, library.find(name).unwrap(), 50.0);
+        let [card, blue, unknown] = ["Zinc White", "Prussian Blue", "Chrome Yellow (poppyseed)"]
+            .map(|name| lines(&catalogue, library.find(name).unwrap(), 50.0));
 
         let palette = Palette::new(&library, &light.viewing, Cards::standard(library.grid));
         let white = library.find("Zinc White").unwrap();
         let strengths = hiding_powers(&palette.unwrap());
         let own = strengths.iter().find(|power| power.paint == white).unwrap();
         let mm = own.hides.thickness().unwrap() / 50.0;
-        assert_eq!(card_lines("Zinc White"), [format!("hides from {}", millimetres(mm))]);
-        let blue = card_lines("Prussian Blue");
+        assert_eq!(card, [format!("hides from {}", millimetres(mm))]);
         assert!(blue[1].starts_with("tinting strength "), "{blue:?}");
-        let unknown = card_lines("Chrome Yellow (poppyseed)");
         assert_eq!(unknown[0], "hiding power not known");
         assert!(unknown[1].contains("not identified"), "{unknown:?}");
     }

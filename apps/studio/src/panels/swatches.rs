@@ -65,9 +65,9 @@ impl Swatches {
         if let Some(index) = self.chosen {
             ui.separator();
             let at = shown.iter().position(|&one| one == index);
-            let beside = |at: Option<usize>| at.and_then(|at| shown.get(at)).copied();
-            let before = beside(at.and_then(|at| at.checked_sub(1)));
-            let place = Place { index, before, after: beside(at.map(|at| at + 1)) };
+            let before = at.and_then(|at| shown.get(at.checked_sub(1)?)).copied();
+            let after = at.and_then(|at| shown.get(at + 1)).copied();
+            let place = Place { index, before, after };
             let before = cx.requests.len();
             show_chosen(ui, cx, place, &book.swatches[index], &mut self.typed);
             self.follow(cx, before);

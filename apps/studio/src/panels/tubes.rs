@@ -316,9 +316,10 @@ fn tapered(painter: &Painter, body: Rect) {
     let mut mesh = Mesh::default();
     for (index, (place, grey)) in METAL.into_iter().enumerate() {
         let color = Color32::from_gray(grey);
-        let at = |inset: f32| body.left() + inset + (body.width() - 2.0 * inset) * place;
-        mesh.colored_vertex(pos2(at(0.0), body.top() + 5.0), color);
-        mesh.colored_vertex(pos2(at(1.5), body.bottom()), color);
+        let [top, bottom] =
+            [0.0, 1.5].map(|inset: f32| body.left() + inset + (body.width() - 2.0 * inset) * place);
+        mesh.colored_vertex(pos2(top, body.top() + 5.0), color);
+        mesh.colored_vertex(pos2(bottom, body.bottom()), color);
         let last = 2 * index as u32;
         if index > 0 {
             mesh.add_triangle(last - 2, last - 1, last);

@@ -155,14 +155,14 @@ impl Wheel {
     /// The colour of a place. Its lightness comes from the region or, if you see all of them, from
     /// the mixture nearest in the plane.
     fn color_at(&self, wheel: &ColorWheel, [a, b]: [f64; 2]) -> TargetColor {
-        let away = |lab: &Lab| (lab.a - a).hypot(lab.b - b);
-        let round = |value: f64| (10.0 * value).round() / 10.0;
         let nearest = self.lightness.or_else(|| {
             let labs = wheel.gamut.samples.iter().map(|sample| sample.color.lab);
-            Some(labs.min_by(|one, other| away(one).total_cmp(&away(other)))?.lightness)
+            let away = labs.map(|lab| ((lab.a - a).hypot(lab.b - b), lab.lightness));
+            Some(away.min_by(|one, other| one.0.total_cmp(&other.0))?.1)
         });
-        let lightness = nearest.map_or(50.0, round);
-        let lab = Lab { lightness, a: round(a), b: round(b) };
+        let [lightness, a, b] =
+            [nearest.unwrap_or(50.0), a, b].map(|value| (10.0 * value).round() / 10.0);
+        let lab = Lab { lightness, a, b };
         let name = format!("Lab {lightness} {} {}", lab.a, lab.b);
         TargetColor { name, color: Color::Lab(lab) }
     }

@@ -278,6 +278,8 @@ mod tests {
     use TouchPhase::{Cancel, End, Move, Start};
     use eframe::egui::{Modifiers, TouchDeviceId, pos2};
 
+    const MS: Duration = Duration::from_millis(1);
+
     fn touch(id: u64, phase: TouchPhase, x: f32) -> Event {
         let device_id = TouchDeviceId(0);
         let id = TouchId(id);
@@ -311,34 +313,34 @@ mod tests {
     #[test]
     fn every_event_is_reported_and_times_are_spread_evenly() {
         let start = Instant::now();
-        let at = |ms| start + Duration::from_millis(ms);
         let mut pointer = Pointer::default();
-        assert!(pointer.reports(&[], at(0)).is_empty());
+        assert!(pointer.reports(&[], start).is_empty());
         let mut events: Vec<Event> =
             (0_u8..9).map(|x| Event::PointerMoved(pos2(f32::from(x), 0.0))).collect();
         events.insert(4, button(true));
-        let reports = pointer.reports(&events, at(20));
+        let reports = pointer.reports(&events, start + 20 * MS);
         assert_eq!(letters(&reports), "mmmmpmmmmm");
         let times: Vec<Instant> = reports.iter().map(|report| report.arrived).collect();
-        assert_eq!(times, (1..=10).map(|step| at(2 * step)).collect::<Vec<_>>());
+        assert_eq!(times, (1..=10_u32).map(|step| start + 2 * step * MS).collect::<Vec<_>>());
         // A long pause does not count as part of the next movement.
-        let reports = pointer.reports(&[button(false), Event::PointerGone], at(5_000));
+        let reports = pointer.reports(&[button(false), Event::PointerGone], start + 5_000 * MS);
         assert_eq!(letters(&reports), "rg");
-        assert_eq!([reports[0].arrived, reports[1].arrived], [at(4_983), at(5_000)]);
+        let times = [reports[0].arrived, reports[1].arrived];
+        assert_eq!(times, [start + 4_983 * MS, start + 5_000 * MS]);
     }
 
     #[test]
     fn events_that_the_system_timed_have_its_times() {
         let start = Instant::now();
-        let at = |ms| start + Duration::from_millis(ms);
         let mut pointer = Pointer::default();
-        pointer.reports(&[], at(0));
-        pointer.stamp([(2.0, 3), (7.0, 5), (8.0, 15)].map(|(x, ms)| (pos2(x, 0.0), at(ms))));
+        pointer.reports(&[], start);
+        let stamps = [(2.0, 3_u32), (7.0, 5), (8.0, 15)];
+        pointer.stamp(stamps.map(|(x, ms)| (pos2(x, 0.0), start + ms * MS)));
         let events: Vec<Event> =
             [2.0, 7.0, 8.0, 9.0].map(|x| Event::PointerMoved(pos2(x, 0.0))).to_vec();
-        let reports = pointer.reports(&events, at(20));
+        let reports = pointer.reports(&events, start + 20 * MS);
         let times: Vec<Instant> = reports.iter().map(|report| report.arrived).collect();
-        assert_eq!(times, [3, 5, 15, 20].map(at));
+        assert_eq!(times, [3_u32, 5, 15, 20].map(|ms| start + ms * MS));
     }
 
     #[test]
@@ -369,17 +371,16 @@ mod tests {
     #[test]
     fn a_finger_in_a_page_is_no_mouse() {
         let start = Instant::now();
-        let at = |ms| start + Duration::from_millis(ms);
         let mut pointer = Pointer::default();
         let press = [button(true), touch(1, Start, 1.0)];
-        assert_eq!(letters(&pointer.reports(&press, at(0))), "");
+        assert_eq!(letters(&pointer.reports(&press, start)), "");
         let moved = [Event::PointerMoved(pos2(20.0, 0.0)), touch(1, Move, 20.0)];
-        assert_eq!(letters(&pointer.reports(&moved, at(10))), "PM");
+        assert_eq!(letters(&pointer.reports(&moved, start + 10 * MS)), "PM");
         let lifted = [button(false), Event::PointerGone, touch(1, End, 20.0)];
-        assert_eq!(letters(&pointer.reports(&lifted, at(20))), "R");
+        assert_eq!(letters(&pointer.reports(&lifted, start + 20 * MS)), "R");
         // A mouse elsewhere stays a mouse.
         let both = [button(true), touch(2, Start, 50.0)];
-        assert_eq!(letters(&pointer.reports(&both, at(30))), "p");
+        assert_eq!(letters(&pointer.reports(&both, start + 30 * MS)), "p");
     }
 
     #[test]

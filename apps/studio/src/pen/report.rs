@@ -203,32 +203,35 @@ mod tests {
     use super::*;
     use eframe::egui::pos2;
 
+    const MS: Duration = Duration::from_millis(1);
+
     #[test]
     fn events_get_the_times_of_their_places() {
         let start = Instant::now();
-        let at = |ms| start + Duration::from_millis(ms);
         let mut stamps = Stamps::default();
-        stamps.extend(
-            [(1.0, 1), (2.0, 4), (3.0, 9), (2.0, 12)].map(|(x, ms)| (pos2(x, 0.0), at(ms))),
-        );
-        let mut take = |x, ms| stamps.take(pos2(x, 0.0), at(ms));
-        assert_eq!(take(2.2, 20), Some(at(4)));
+        let moves = [(1.0, 1_u32), (2.0, 4), (3.0, 9), (2.0, 12)];
+        stamps.extend(moves.map(|(x, ms)| (pos2(x, 0.0), start + ms * MS)));
+        let now = start + 20 * MS;
+        assert_eq!(stamps.take(pos2(2.2, 0.0), now), Some(start + 4 * MS));
         // The report before it is gone, and a missing one removes none.
-        assert_eq!((take(1.0, 20), take(9.0, 20)), (None, None));
-        assert_eq!(take(2.0, 20), Some(at(12)));
-        assert_eq!(take(3.0, 20), None);
-        stamps.extend([(pos2(5.0, 0.0), at(30))]);
-        assert_eq!(stamps.take(pos2(5.0, 0.0), at(900)), None);
+        assert_eq!(stamps.take(pos2(1.0, 0.0), now), None);
+        assert_eq!(stamps.take(pos2(9.0, 0.0), now), None);
+        assert_eq!(stamps.take(pos2(2.0, 0.0), now), Some(start + 12 * MS));
+        assert_eq!(stamps.take(pos2(3.0, 0.0), now), None);
+        stamps.extend([(pos2(5.0, 0.0), start + 30 * MS)]);
+        assert_eq!(stamps.take(pos2(5.0, 0.0), start + 900 * MS), None);
     }
 
     #[test]
     fn unknown_times_are_spread_between_known_ones() {
         let start = Instant::now();
-        let at = |ms| start + Duration::from_millis(ms);
-        let known = [None, Some(at(4)), None, None, Some(at(10)), Some(at(7)), None, None];
-        let wanted = [2, 4, 6, 8, 10, 10, 15, 20].map(at);
-        assert_eq!(filled(&known, at(0), at(20)), wanted);
-        assert_eq!(filled(&[Some(at(90)), Some(at(1))], at(5), at(20)), [at(20), at(20)]);
-        assert!(filled(&[], at(5), at(20)).is_empty());
+        let known = [None, Some(4_u32), None, None, Some(10), Some(7), None, None];
+        let known = known.map(|ms| Some(start + ms? * MS));
+        let wanted = [2_u32, 4, 6, 8, 10, 10, 15, 20].map(|ms| start + ms * MS);
+        let last = start + 20 * MS;
+        assert_eq!(filled(&known, start, last), wanted);
+        let outside = [90_u32, 1].map(|ms| Some(start + ms * MS));
+        assert_eq!(filled(&outside, start + 5 * MS, last), [last, last]);
+        assert!(filled(&[], start + 5 * MS, last).is_empty());
     }
 }

@@ -139,13 +139,16 @@ impl EventFrame {
 
 fn state(pose: &Pose, zoom: f32) -> PointerState {
     let [x, y] = pose.position;
-    let degrees = |radians: f32| f64::from(radians).to_degrees();
     PointerState {
         at: pos2(x / zoom, y / zoom),
         pressure: pose.pressure.get().map(f64::from),
         tilt_deg: pose.tilt.map(|[x, y]| (degrees(x), degrees(y))),
         twist_deg: pose.roll.get().map(degrees),
     }
+}
+
+fn degrees(radians: f32) -> f64 {
+    f64::from(radians).to_degrees()
 }
 
 /// If a timestamp maps to an instant further in the past than this, it belongs to another clock.
@@ -181,6 +184,8 @@ impl StampClock {
 mod tests {
     use super::*;
     use octotablet::util::NicheF32;
+
+    const MS: Duration = Duration::from_millis(1);
 
     fn pose(x: f32) -> ToolEvent<'static> {
         let pressure = NicheF32::new_some(0.25).unwrap_or_default();
@@ -234,27 +239,35 @@ mod tests {
     #[test]
     fn times_follow_the_timestamps_whatever_the_delay() {
         let start = Instant::now();
-        let at = |ms| start + Duration::from_millis(ms);
         let mut clock = StampClock::default();
-        assert_eq!(clock.instant(1000, at(10)), at(10));
-        // These events were delayed, the last by 26 ms.
-        assert_eq!(clock.instant(1004, at(40)), at(14));
-        assert_eq!(clock.instant(1008, at(40)), at(18));
-        // This event had less delay than all before it.
-        assert_eq!(clock.instant(1058, at(60)), at(60));
-        assert_eq!(clock.instant(1060, at(90)), at(62));
+        for (stamp, arrived, wanted) in [
+            (1000, 10_u32, 10_u32),
+            // These events were delayed, the last by 26 ms.
+            (1004, 40, 14),
+            (1008, 40, 18),
+            // This event had less delay than all before it.
+            (1058, 60, 60),
+            (1060, 90, 62),
+        ] {
+            let found = clock.instant(stamp, start + arrived * MS);
+            assert_eq!(found, start + wanted * MS, "{stamp}");
+        }
     }
 
     #[test]
     fn timestamps_may_wrap_and_jump() {
         let start = Instant::now();
-        let at = |ms| start + Duration::from_millis(ms);
         let mut clock = StampClock::default();
-        assert_eq!(clock.instant(u32::MAX, at(0)), at(0));
-        assert_eq!(clock.instant(4, at(20)), at(5));
-        // This timestamp comes from an unrelated clock.
-        assert_eq!(clock.instant(90_000_000, at(30)), at(30));
-        assert_eq!(clock.instant(7, at(40)), at(40));
-        assert_eq!(clock.instant(8, at(9_000)), at(9_000));
+        for (stamp, arrived, wanted) in [
+            (u32::MAX, 0_u32, 0_u32),
+            (4, 20, 5),
+            // This timestamp comes from an unrelated clock.
+            (90_000_000, 30, 30),
+            (7, 40, 40),
+            (8, 9_000, 9_000),
+        ] {
+            let found = clock.instant(stamp, start + arrived * MS);
+            assert_eq!(found, start + wanted * MS, "{stamp}");
+        }
     }
 }

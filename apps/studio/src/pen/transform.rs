@@ -23,11 +23,11 @@ impl SurfaceTransform {
         // A long distance keeps the rounding error of f32 small.
         const SPAN: f32 = 1024.0;
         let origin = mm(Pos2::ZERO);
-        let step = |at: Pos2| {
+        let [right, down] = [pos2(SPAN, 0.0), pos2(0.0, SPAN)].map(|at| {
             let (x, y) = mm(at);
             ((x - origin.0) / f64::from(SPAN), (y - origin.1) / f64::from(SPAN))
-        };
-        Self { surface, area, origin, right: step(pos2(SPAN, 0.0)), down: step(pos2(0.0, SPAN)) }
+        });
+        Self { surface, area, origin, right, down }
     }
 
     /// Position on the surface, in mm, below a point of the window.
@@ -174,10 +174,14 @@ mod tests {
         palette.area = Rect::from_min_max(pos2(700.0, 0.0), pos2(800.0, 600.0));
         let surfaces = [palette, turned(0.0, false)];
         let targets = PenTargets { surfaces: &surfaces, covered: &|at| at.y > 500.0 };
-        let touched = |x, y| targets.surface_at(pos2(x, y)).map(|transform| transform.surface);
-        assert_eq!(touched(750.0, 10.0), Some(SurfaceId::Palette));
-        assert_eq!(touched(650.0, 10.0), Some(SurfaceId::Canvas));
-        assert_eq!(touched(650.0, 510.0), None);
-        assert_eq!(touched(850.0, 10.0), None);
+        for (x, y, wanted) in [
+            (750.0, 10.0, Some(SurfaceId::Palette)),
+            (650.0, 10.0, Some(SurfaceId::Canvas)),
+            (650.0, 510.0, None),
+            (850.0, 10.0, None),
+        ] {
+            let touched = targets.surface_at(pos2(x, y)).map(|transform| transform.surface);
+            assert_eq!(touched, wanted, "{x} {y}");
+        }
     }
 }

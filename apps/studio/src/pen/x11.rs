@@ -333,16 +333,12 @@ impl Valuators {
 
     /// State of the stylus at a point of the window.
     pub(super) fn state(&self, at: Pos2) -> PointerState {
-        let normalized = |axis| {
+        let axes = [Axis::Pressure, Axis::TiltX, Axis::TiltY, Axis::Twist];
+        let [pressure, tilt_x, tilt_y, twist_deg] = axes.map(|axis| {
             let valuator = self.0.iter().find(|valuator| valuator.axis == axis);
             valuator.and_then(Valuator::normalized)
-        };
-        PointerState {
-            at,
-            pressure: normalized(Axis::Pressure),
-            tilt_deg: normalized(Axis::TiltX).zip(normalized(Axis::TiltY)),
-            twist_deg: normalized(Axis::Twist),
-        }
+        });
+        PointerState { at, pressure, tilt_deg: tilt_x.zip(tilt_y), twist_deg }
     }
 }
 
@@ -358,6 +354,8 @@ mod tests {
     };
     use x11rb::protocol::xproto::{CreateWindowAux, WindowClass};
     use x11rb::wrapper::ConnectionExt as _;
+
+    const MS: Duration = Duration::from_millis(1);
 
     fn button_event(time: u32, detail: u32, pressure: Option<i32>) -> ButtonPressEvent {
         ButtonPressEvent {
@@ -377,15 +375,14 @@ mod tests {
 
     #[test]
     fn stylus_events_are_reported_with_their_axes_and_server_times() {
-        let axis = |number, axis, range| Valuator { number, axis, range, value: 0.0 };
-        let pressure = axis(2, Axis::Pressure, (0.0, 2047.0));
+        let pressure =
+            Valuator { number: 2, axis: Axis::Pressure, range: (0.0, 2047.0), value: 0.0 };
         let valuators = Valuators(vec![pressure]);
         let pens = vec![PenEnd { id: 9, device: Device::Eraser, valuators }];
         let mut ends = PenEnds { pens, mice: vec![7], clock: StampClock::default() };
         let start = Instant::now();
-        let at = |ms| start + Duration::from_millis(ms);
         let events = [
-            (Event::XinputMotion(button_event(500, 0, None)), 0),
+            (Event::XinputMotion(button_event(500, 0, None)), 0_u32),
             (Event::XinputButtonPress(button_event(508, 1, Some(1023))), 20),
             (Event::XinputButtonPress(button_event(516, 2, None)), 20),
             (Event::XinputButtonRelease(button_event(517, 3, None)), 20),
@@ -398,22 +395,23 @@ mod tests {
             ),
         ];
         let reports: Vec<Report> =
-            events.iter().filter_map(|(event, ms)| ends.report(event, at(*ms))).collect();
+            events.iter().filter_map(|(event, ms)| ends.report(event, start + *ms * MS)).collect();
         assert!(reports.iter().all(|report| report.device == Device::Eraser));
         let times: Vec<Instant> = reports.iter().map(|report| report.arrived).collect();
-        assert_eq!(times, [at(0), at(8), at(16), at(17), at(18)]);
+        assert_eq!(times, [0_u32, 8, 16, 17, 18].map(|ms| start + ms * MS));
         let kinds: Vec<ReportKind> = reports.iter().map(|report| report.kind).collect();
         let [ReportKind::Moved(near), ReportKind::Pressed(down), rest @ ..] = &kinds[..] else {
             panic!("{kinds:?}")
         };
         assert_eq!((near.at, near.pressure), (pos2(100.5, 1.75), Some(0.0)));
         assert_eq!((down.pressure, down.tilt_deg), (Some(0.5), None));
-        let barrel = |button, pressed| ReportKind::Barrel { button, pressed };
-        assert_eq!(rest, [barrel(0, true), barrel(1, false), ReportKind::Released]);
+        let pressed = ReportKind::Barrel { button: 0, pressed: true };
+        let released = ReportKind::Barrel { button: 1, pressed: false };
+        assert_eq!(rest, [pressed, released, ReportKind::Released]);
         let of_mouse = ButtonPressEvent { deviceid: 7, ..button_event(524, 0, None) };
-        let stamp = ends.stamp(&Event::XinputMotion(of_mouse.clone()), at(40));
-        assert_eq!(stamp, Some((pos2(100.5, 1.75), at(24))));
-        assert!(ends.report(&Event::XinputMotion(of_mouse), at(40)).is_none());
+        let stamp = ends.stamp(&Event::XinputMotion(of_mouse.clone()), start + 40 * MS);
+        assert_eq!(stamp, Some((pos2(100.5, 1.75), start + 24 * MS)));
+        assert!(ends.report(&Event::XinputMotion(of_mouse), start + 40 * MS).is_none());
     }
 
     /// An X server without a screen, ended after the test.
@@ -470,13 +468,15 @@ mod tests {
     }
 
     fn wacom() -> Valuators {
-        let one = |number, axis, range| Valuator { number, axis, range, value: 0.0 };
-        Valuators(vec![
-            one(2, Axis::Pressure, (0.0, 65536.0)),
-            one(3, Axis::TiltX, (-64.0, 63.0)),
-            one(4, Axis::TiltY, (-64.0, 63.0)),
-            one(5, Axis::Twist, (-900.0, 899.0)),
-        ])
+        let axes = [
+            (2, Axis::Pressure, (0.0, 65536.0)),
+            (3, Axis::TiltX, (-64.0, 63.0)),
+            (4, Axis::TiltY, (-64.0, 63.0)),
+            (5, Axis::Twist, (-900.0, 899.0)),
+        ];
+        Valuators(
+            axes.map(|(number, axis, range)| Valuator { number, axis, range, value: 0.0 }).to_vec(),
+        )
     }
 
     #[test]

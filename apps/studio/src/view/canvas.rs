@@ -13,8 +13,8 @@ use eframe::egui::PaintCallbackInfo;
 use eframe::egui::epaint::{ClippedShape, RectShape, WHITE_UV};
 use eframe::egui::layers::ShapeIdx;
 use eframe::egui::{
-    Color32, Context, CornerRadius, Id, LayerId, Mesh, Painter, Pos2, Rect, Shape, StrokeKind,
-    TextureId, Vec2, pos2, vec2,
+    Color32, Context, CornerRadius, Id, LayerId, Mesh, Painter, Rect, Shape, StrokeKind, TextureId,
+    Vec2, pos2, vec2,
 };
 #[cfg(feature = "wgpu")]
 use eframe::egui_wgpu::wgpu::TextureFormat;
@@ -82,9 +82,9 @@ impl QuadCanvas {
 
     /// A rectangle rounded to pixels, as egui does for rectangles.
     pub(super) fn rounded(&self, rect: Rect) -> Rect {
-        let round = |at: f32| (at * self.density).round() / self.density;
-        let corner = |at: Pos2| pos2(round(at.x), round(at.y));
-        Rect::from_min_max(corner(rect.min), corner(rect.max))
+        let [min, max] = [rect.min, rect.max]
+            .map(|at| ((at.to_vec2() * self.density).round() / self.density).to_pos2());
+        Rect::from_min_max(min, max)
     }
 
     /// A length rounded up to pixels.

@@ -176,16 +176,17 @@ impl CallbackTrait for DrawMeshes {
         }
         self.buffers.get_or_init(|| {
             let points = screen.size_in_pixels.map(|size| size as f32 / screen.pixels_per_point);
-            let buffer = |contents: &[u8], usage| {
+            let vertices = self.vertices(points);
+            let indices = self.indices();
+            let vertices = (vertices.as_flattened(), BufferUsages::VERTEX);
+            [vertices, (indices.as_flattened(), BufferUsages::INDEX)].map(|(contents, usage)| {
                 let label = Some("meshes of the interface");
                 device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
                     label,
                     contents,
                     usage,
                 })
-            };
-            let vertices = buffer(self.vertices(points).as_flattened(), BufferUsages::VERTEX);
-            [vertices, buffer(self.indices().as_flattened(), BufferUsages::INDEX)]
+            })
         });
         Vec::new()
     }

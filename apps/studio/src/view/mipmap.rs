@@ -190,19 +190,21 @@ mod tests {
         );
     }
 
+    /// Cells of a pattern of greys.
+    fn cells(rect: Rect) -> Vec<[u8; 4]> {
+        (rect.y..rect.y + rect.height)
+            .flat_map(|y| {
+                (rect.x..rect.x + rect.width)
+                    .map(move |x| grey(((x * 31 + y * 17 + x * y) % 256) as u8))
+            })
+            .collect()
+    }
+
     #[test]
     fn writing_in_pieces_equals_writing_at_once() {
         // We use odd sizes, and pieces with edges that do not fall on blocks of two by two.
         let width = 333;
         let height = 257;
-        let cells = |rect: Rect| -> Vec<[u8; 4]> {
-            (rect.y..rect.y + rect.height)
-                .flat_map(|y| {
-                    (rect.x..rect.x + rect.width)
-                        .map(move |x| grey(((x * 31 + y * 17 + x * y) % 256) as u8))
-                })
-                .collect()
-        };
         let mut at_once = MipLevels::new(width, height, Color32::BLACK);
         at_once.write(at_once.bounds(0), &cells(at_once.bounds(0)));
         let mut pieces = MipLevels::new(width, height, Color32::WHITE);

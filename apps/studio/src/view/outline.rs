@@ -54,8 +54,9 @@ impl Outline {
             return true;
         }
         let radius = corner(cells);
-        let beyond = |at: f64, size: f64| (radius - at).max(at - (size - radius)).max(0.0);
-        let in_corner = beyond(x, width).hypot(beyond(y, height)) > radius;
+        let [across, down] = [(x, width), (y, height)]
+            .map(|(at, size)| (radius - at).max(at - (size - radius)).max(0.0));
+        let in_corner = across.hypot(down) > radius;
         let (middle, hole) = hole(cells);
         !in_corner && (x - middle[0]).hypot(y - middle[1]) > hole
     }
@@ -85,10 +86,9 @@ impl Outline {
     /// Covers the parts outside the outline with the colour of the surround, and draws the edge.
     pub(super) fn draw_edge(self, painter: &Painter, placement: &Placement, cells: (usize, usize)) {
         let edge = self.edge(cells);
-        let point = |place: [f64; 2]| placement.point(place);
         if self == Self::Rectangle {
             // An antialiased line hides the stepped edge of the picture.
-            let line = edge.into_iter().map(point).collect();
+            let line = edge.into_iter().map(|place| placement.point(place)).collect();
             painter.add(Shape::closed_line(line, Stroke::new(1.0, Color32::from_gray(76))));
             return;
         }
@@ -96,9 +96,9 @@ impl Outline {
             let (right, low) = [(0, 0), (1, 0), (1, 1), (0, 1)][quarter];
             let tip = [(right * cells.0) as f64, (low * cells.1) as f64];
             let mut mesh = Mesh::default();
-            mesh.colored_vertex(point(tip), theme::SURROUND);
+            mesh.colored_vertex(placement.point(tip), theme::SURROUND);
             for &place in arc {
-                mesh.colored_vertex(point(place), theme::SURROUND);
+                mesh.colored_vertex(placement.point(place), theme::SURROUND);
             }
             for at in 1..=QUARTER as u32 {
                 mesh.add_triangle(0, at, at + 1);
@@ -107,11 +107,11 @@ impl Outline {
         }
         // The corners also covered the shadow there.
         self.draw_shadow(painter, placement, cells);
-        let line: Vec<Pos2> = edge.into_iter().map(point).collect();
+        let line = edge.into_iter().map(|place| placement.point(place)).collect();
         painter.add(Shape::closed_line(line, Stroke::new(1.5, Color32::from_gray(60))));
 
         let (middle, radius) = hole(cells);
-        let centre = point(middle);
+        let centre = placement.point(middle);
         let radius = (radius * placement.scale()) as f32;
         painter.circle(centre, radius, theme::SURROUND, Stroke::new(1.5, Color32::from_gray(60)));
         for (inset, alpha) in [(1.5, 40), (3.0, 22), (5.0, 12)] {
@@ -148,17 +148,15 @@ impl Outline {
 pub(super) fn offset_outwards(edge: &[Pos2], by: f32) -> Vec<Pos2> {
     let count = edge.len();
     let middle = edge.iter().fold(Vec2::ZERO, |sum, at| sum + at.to_vec2()) / count as f32;
-    let outwards = |from: Pos2, to: Pos2| {
-        let normal = (to - from).normalized().rot90();
-        if normal.dot(from - middle.to_pos2()) < 0.0 { -normal } else { normal }
-    };
     (0..count)
         .map(|at| {
             let before = edge[(at + count - 1) % count];
             let here = edge[at];
             let next = edge[(at + 1) % count];
-            let one = outwards(before, here);
-            let other = outwards(here, next);
+            let [one, other] = [(before, here), (here, next)].map(|(from, to)| {
+                let normal = (to - from).normalized().rot90();
+                if normal.dot(from - middle.to_pos2()) < 0.0 { -normal } else { normal }
+            });
             // Both sides move by `by`, so a corner moves further.
             here + (one + other) * (by / (1.0 + one.dot(other)))
         })
@@ -241,9 +239,9 @@ impl HeadLines {
 
     /// A ring around a place, with ticks that point to it.
     fn ring(tip: Pos2, paint: Option<[u8; 3]>) -> Self {
-        let turn =
-            |part: usize| Vec2::angled(std::f32::consts::TAU * part as f32 / RING_PARTS as f32);
-        let circle = (0..RING_PARTS).map(|part| tip + RING.0 * turn(part)).collect();
+        let turns =
+            (0..RING_PARTS).map(|part| std::f32::consts::TAU * part as f32 / RING_PARTS as f32);
+        let circle = turns.map(|turn| tip + RING.0 * Vec2::angled(turn)).collect();
         let sides = [Vec2::X, Vec2::Y, -Vec2::X, -Vec2::Y];
         let ticks = sides.map(|side| (vec![tip + RING.0 * side, tip + RING.1 * side], false));
         let dot = paint.map(|paint| (tip + vec2(1.0, 1.0) * RING.1, paint));
@@ -305,8 +303,8 @@ fn outside(edge: &[Pos2], root: Pos2, end: Pos2) -> Option<Pos2> {
         (0..edge.len()).all(|at| {
             let from = edge[at];
             let to = edge[(at + 1) % edge.len()];
-            let side = |point: Pos2| (to - from).rot90().dot(point - from);
-            side(point) * side(middle.to_pos2()) >= 0.0
+            let normal = (to - from).rot90();
+            normal.dot(point - from) * normal.dot(middle.to_pos2() - from) >= 0.0
         })
     };
     let steps = (end - root).length().ceil().max(1.0) as usize;

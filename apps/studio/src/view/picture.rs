@@ -203,11 +203,10 @@ impl Chunk {
 
     /// Returns the up-to-date texture and the number of bytes uploaded for it.
     fn upload(&mut self, levels: &MipLevels, level: usize) -> (LazyTexture, u64) {
-        let bytes = |rect: Rect| (4 * rect.width * rect.height) as u64;
         let Some(texture) = &self.texture else {
             let texture = LazyTexture::new(levels.region(level, self.padded));
             self.texture = Some(texture.clone());
-            return (texture, bytes(self.padded));
+            return (texture, (4 * self.padded.width * self.padded.height) as u64);
         };
         if !self.changed.is_empty()
             && texture.pending_cells() > self.padded.width * self.padded.height
@@ -219,7 +218,7 @@ impl Chunk {
         for rect in self.changed.drain(..) {
             let at = [rect.x - self.padded.x, rect.y - self.padded.y];
             texture.write(at, levels.region(level, rect));
-            sum += bytes(rect);
+            sum += (4 * rect.width * rect.height) as u64;
         }
         (texture.clone(), sum)
     }

@@ -29,8 +29,6 @@ impl Pipelines {
     pub(super) fn new(device: &Device, format: TextureFormat) -> Self {
         let module = device.create_shader_module(wgpu::include_wgsl!("quad.wgsl"));
         let visibility = ShaderStages::FRAGMENT;
-        let entry =
-            |binding, ty| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None };
         let texture = wgpu::BindingType::Texture {
             sample_type: TextureSampleType::Float { filterable: true },
             view_dimension: wgpu::TextureViewDimension::D2,
@@ -39,7 +37,9 @@ impl Pipelines {
         let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("textured quads"),
-            entries: &[entry(0, texture), entry(1, sampler)],
+            entries: &[(0, texture), (1, sampler)].map(|(binding, ty)| {
+                wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None }
+            }),
         });
         let attributes = wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2, 2 => Unorm8x4];
         // egui works in encoded values. A target with an sRGB format encodes values that we write,

@@ -249,9 +249,9 @@ impl SurfaceView {
         match (self.drag, response.interact_pointer_pos()) {
             (DragMode::Pan, Some(_)) => self.view.pan(delta, density),
             (DragMode::Rotate, Some(now)) => {
-                let arm = |point: Pos2| (point - rect.center()).angle();
-                let turned = f64::from(arm(now) - arm(now - delta));
-                self.view.rotate(turned);
+                let [after, before] =
+                    [now, now - delta].map(|point| (point - rect.center()).angle());
+                self.view.rotate(f64::from(after - before));
                 self.view.fitted = false;
             }
             (DragMode::Zoom, Some(now)) => {
@@ -430,17 +430,18 @@ impl Patch {
         if !rect.is_positive() {
             return Self::default();
         }
-        let whole = |points: f32| (points * density).max(0.0);
-        let [left, top] = [rect.min.x, rect.min.y].map(|at| whole(at).floor() as usize);
-        let [right, bottom] = [rect.max.x, rect.max.y].map(|at| whole(at).ceil() as usize);
+        let [left, top] =
+            [rect.min.x, rect.min.y].map(|at| (at * density).max(0.0).floor() as usize);
+        let [right, bottom] =
+            [rect.max.x, rect.max.y].map(|at| (at * density).max(0.0).ceil() as usize);
         let width = right - left;
         let height = bottom - top;
-        let place = |x: f32, y: f32| placement.cell(pos2(x / density, y / density));
         let x = left as f32 + 0.5;
         let y = top as f32 + 0.5;
-        let from = place(x, y);
-        let [right, down] = [place(x + 1.0, y), place(x, y + 1.0)]
-            .map(|to| [(to[0] - from[0]) as f32, (to[1] - from[1]) as f32]);
+        let [from, right, down] = [(x, y), (x + 1.0, y), (x, y + 1.0)]
+            .map(|(x, y)| placement.cell(pos2(x / density, y / density)));
+        let [right, down] =
+            [right, down].map(|to| [(to[0] - from[0]) as f32, (to[1] - from[1]) as f32]);
         let cells = Cells::new(picture, placement, density);
         let mut rgba = Vec::with_capacity(4 * width * height);
         for row in 0..height {
@@ -510,15 +511,14 @@ impl<'a> Cells<'a> {
             let at = ((at - 0.5).max(0.0) * 256.0) as usize;
             (at >> 8, (at & 255) as u32)
         });
-        let [a, b] = [cell(column, row), cell(column + 1, row)];
-        let [c, d] = [cell(column, row + 1), cell(column + 1, row + 1)];
-        let mixed = |channel: fn(&Color32) -> u8| {
-            let of = |color: &Color32| u32::from(channel(color));
-            let upper = of(&a) * (256 - right) + of(&b) * right;
-            let lower = of(&c) * (256 - right) + of(&d) * right;
+        let corners = [(column, row), (column + 1, row), (column, row + 1), (column + 1, row + 1)];
+        let [a, b, c, d] = corners.map(|(column, row)| cell(column, row).to_array().map(u32::from));
+        let [red, green, blue] = [0, 1, 2].map(|channel: usize| {
+            let upper = a[channel] * (256 - right) + b[channel] * right;
+            let lower = c[channel] * (256 - right) + d[channel] * right;
             ((upper * (256 - down) + lower * down + (1 << 15)) >> 16) as u8
-        };
-        Color32::from_rgb(mixed(Color32::r), mixed(Color32::g), mixed(Color32::b))
+        });
+        Color32::from_rgb(red, green, blue)
     }
 }
 

@@ -51,8 +51,9 @@ impl ViewState {
         let (sin, cos) = self.rotation.sin_cos();
         let across = width * cos.abs() + height * sin.abs();
         let down = width * sin.abs() + height * cos.abs();
-        let pixels = |points: f32| f64::from((points - 2.0 * margin).max(16.0) * density);
-        let zoom = (pixels(rect.width()) / across).min(pixels(rect.height()) / down);
+        let [room_across, room_down] = [rect.width(), rect.height()]
+            .map(|points| f64::from((points - 2.0 * margin).max(16.0) * density));
+        let zoom = (room_across / across).min(room_down / down);
         self.zoom = zoom.clamp(*ZOOM.start(), *ZOOM.end());
         self.centre = [0.5 * width, 0.5 * height];
         self.fitted = true;
@@ -309,9 +310,8 @@ mod tests {
             let mut view = ViewState { centre: [100.3, 50.7], zoom: 3.3, ..ViewState::default() };
             view.actual_size();
             let placement = view.placement(RECT, density);
-            let at = |cell| placement.point(cell).to_vec2() * density;
-            let first = at([0.0, 0.0]);
-            let next = at([1.0, 1.0]);
+            let [first, next] =
+                [[0.0, 0.0], [1.0, 1.0]].map(|cell| placement.point(cell).to_vec2() * density);
             assert!((first - first.round()).length() < 1e-3, "{first}");
             assert!((next - first - vec2(1.0, 1.0)).length() < 1e-3, "{first} {next}");
         }

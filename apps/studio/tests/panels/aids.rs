@@ -202,12 +202,11 @@ fn a_stroke_is_painted_mirrored_too_and_undone_with_its_twins() {
     let painted = pixels(&window);
     window.save("aids-symmetry");
     // Both sides have nearly as much paint, and nearly at the mirrored places.
-    let differs = |x: usize, y: usize| painted[y * 320 + x] != bare[y * 320 + x];
-    let cells = (0..200).flat_map(|y| (0..160).map(move |x| (x, y)));
+    let cells = (0..200_usize).flat_map(|y| (0..160_usize).map(move |x| (x, y)));
     let mut both = 0;
     let mut either = 0;
     for (x, y) in cells {
-        let sides = [differs(x, y), differs(319 - x, y)];
+        let sides = [x, 319 - x].map(|x| painted[y * 320 + x] != bare[y * 320 + x]);
         both += usize::from(sides == [true; 2]);
         either += usize::from(sides != [false; 2]);
     }

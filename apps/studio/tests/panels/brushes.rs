@@ -280,19 +280,19 @@ fn the_swatch_tells_colour_thickness_and_hiding_of_what_the_brush_holds() {
     assert!(rect.height() >= 50.0 && rect.width() > 260.0, "{rect}");
     assert!(harness.query_by_label("Marks of the tip").is_some());
     if let Some(drawn) = picture(&mut harness, "brush-swatch") {
-        let at = |share: f32, y: f32| {
-            let x = rect.left() + share * rect.width();
-            drawn.get_pixel(x as u32, y as u32).0
-        };
         let swatch = harness.state().painting.brushes[0].swatch.clone().unwrap();
-        let rgb = |[r, g, b]: [u8; 3]| [r, g, b, 255];
         let middle = rect.center().y;
-        assert_eq!(at(0.25, middle), rgb(swatch.opaque.srgb), "the left half hides");
-        assert_eq!(at(0.6, middle), rgb(swatch.over_ground.srgb));
-        assert_eq!(at(0.6, rect.bottom() - 3.0), rgb(swatch.ground.srgb), "the bare ground");
-        assert_eq!(at(0.81, middle), rgb(swatch.over_cards[0].srgb));
-        assert_eq!(at(0.95, middle), rgb(swatch.over_cards[1].srgb));
-        assert_eq!(at(0.95, rect.top() + 3.0), rgb(swatch.cards[1].srgb), "the bare card");
+        for (share, y, [r, g, b], what) in [
+            (0.25, middle, swatch.opaque.srgb, "the left half hides"),
+            (0.6, middle, swatch.over_ground.srgb, "over the ground"),
+            (0.6, rect.bottom() - 3.0, swatch.ground.srgb, "the bare ground"),
+            (0.81, middle, swatch.over_cards[0].srgb, "over the black card"),
+            (0.95, middle, swatch.over_cards[1].srgb, "over the white card"),
+            (0.95, rect.top() + 3.0, swatch.cards[1].srgb, "the bare card"),
+        ] {
+            let x = rect.left() + share * rect.width();
+            assert_eq!(drawn.get_pixel(x as u32, y as u32).0, [r, g, b, 255], "{what}");
+        }
     }
     harness.state_mut().tools.brush = "flat".to_owned();
     harness.run();

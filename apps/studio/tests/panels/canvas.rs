@@ -38,15 +38,16 @@ fn cell(x: usize, y: usize) -> [u8; 4] {
 /// A whole picture in tiles, as the worker reports it.
 fn tiles(color: impl Fn(usize, usize) -> [u8; 4]) -> Vec<TilePixels> {
     let bounds = tile::Rect { x: 0, y: 0, width: CELLS.0, height: CELLS.1 };
-    let pixels = |rect: tile::Rect| {
-        let rows = rect.y..rect.y + rect.height;
-        rows.flat_map(|y| (rect.x..rect.x + rect.width).map(move |x| (x, y)))
-            .map(|(x, y)| color(x, y))
-            .collect()
-    };
-    let rects = tile::TileSet::all(bounds);
-    let rects = rects.iter().map(|tile| tile.rect(bounds));
-    rects.map(|rect| TilePixels { rect, pixels: pixels(rect) }).collect()
+    let tiles = tile::TileSet::all(bounds);
+    tiles
+        .iter()
+        .map(|tile| {
+            let rect = tile.rect(bounds);
+            let rows = rect.y..rect.y + rect.height;
+            let cells = rows.flat_map(|y| (rect.x..rect.x + rect.width).map(move |x| (x, y)));
+            TilePixels { rect, pixels: cells.map(|(x, y)| color(x, y)).collect() }
+        })
+        .collect()
 }
 
 fn surface(outline: Outline) -> SurfaceView {
@@ -249,11 +250,10 @@ fn only_changed_and_visible_tiles_are_uploaded() {
     // This is one of four chunks, and the edges of its neighbours.
     assert_eq!(first, 4 * 513 * 513);
     let text = tiles(|_, _| [9, 9, 9, 255]);
-    let at =
-        |x: usize, y: usize| text.iter().find(|tile| tile.rect.x == x && tile.rect.y == y).unwrap();
     // A visible tile, its neighbour, and an invisible one.
     for (x, y) in [(192, 192), (256, 192), (576, 64)] {
-        harness.state_mut().write(false, at(x, y));
+        let tile = text.iter().find(|tile| tile.rect.x == x && tile.rect.y == y).unwrap();
+        harness.state_mut().write(false, tile);
     }
     harness.run();
     assert_eq!(bytes(&harness) - first, 4 * 128 * 64);

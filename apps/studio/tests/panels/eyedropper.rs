@@ -40,7 +40,8 @@ fn stage(painting: PaintingState) -> PanelWindow<Eyedropper> {
 /// A pick of wet paint (three parts white, one part ultramarine) over dry yellow.
 fn picked(painting: &PaintingState) -> Picked {
     let library = &painting.library;
-    let find = |name: &str| library.find(name).unwrap();
+    let [white, blue, yellow] =
+        ["Zinc White", "Ultramarine", "Chrome Yellow"].map(|name| library.find(name).unwrap());
     fn layer(label: &str, paint: &[(PigmentId, f64)], vehicle: f64) -> PickedLayer {
         let mut layer = PickedLayer {
             label: label.to_owned(),
@@ -54,8 +55,6 @@ fn picked(painting: &PaintingState) -> Picked {
         layer.amounts_mm[SLOTS] = vehicle;
         layer
     }
-    let white = find("Zinc White");
-    let blue = find("Ultramarine");
     let mixture = library.mix([(white, 3.0), (blue, 1.0)]).unwrap();
     Picked {
         surface: SurfaceId::Canvas,
@@ -63,7 +62,7 @@ fn picked(painting: &PaintingState) -> Picked {
         y_mm: 54.11,
         reflectance: mixture.hiding(library.saunderson),
         layers: vec![
-            layer("sunflowers", &[(find("Chrome Yellow"), 0.05)], 0.0),
+            layer("sunflowers", &[(yellow, 0.05)], 0.0),
             layer("Wet", &[(white, 0.06), (blue, 0.02)], 0.02),
         ],
     }
@@ -89,8 +88,9 @@ fn picked_values_equal_those_of_the_library() {
     let xyz = weights.xyz(&picked.reflectance);
     let lab = Lab::from_xyz(xyz, weights.white());
     let srgb = RgbSpace::Srgb.encoded_from_xyz(xyz, weights.white(), Adaptation::Bradford).to_hex();
-    let three = |values: [f64; 3]| values.map(|value| format!("{value:.2}")).join(" ");
-    for text in [three(lab.to_array()), three(xyz.to_array()), srgb, "103.2, 54.1 mm".to_owned()] {
+    let [lab, xyz] = [lab.to_array(), xyz.to_array()]
+        .map(|values| values.map(|value| format!("{value:.2}")).join(" "));
+    for text in [lab, xyz, srgb, "103.2, 54.1 mm".to_owned()] {
         assert!(stage.harness.query_by_label(&text).is_some(), "{text}");
     }
     for text in ["Wet", "0.100 mm, 20 % medium", "sunflowers", "0.050 mm", "     3"] {

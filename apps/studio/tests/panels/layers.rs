@@ -96,8 +96,7 @@ fn dragging_the_stiffness_adjusts_and_ends_once() {
 #[test]
 fn layers_are_listed_from_the_top_with_their_figures() {
     let harness = layers();
-    let top = |label: &str| harness.get_by_label(label).rect().top();
-    let order = [top("Wet"), top("Layer 2"), top("Layer 1")];
+    let order = ["Wet", "Layer 2", "Layer 1"].map(|label| harness.get_by_label(label).rect().top());
     assert!(order.is_sorted(), "{order:?}");
     assert_eq!(harness.query_all_by_label("0.12 mm, max 0.81 mm").count(), 2);
     assert_eq!(harness.query_all_by_label("covers 34 %").count(), 2);
@@ -195,8 +194,9 @@ fn a_name_is_edited_by_a_double_click_or_by_f2() {
     harness.get_by_label("name of Layer 2").type_text(" sky ");
     harness.run();
     key(&mut harness, Key::Enter);
-    let named = |name: &str| act(Action::Name { layer: id(2), name: name.to_owned() });
-    assert_requests(&mut harness, &[named("sky")]);
+    let [sky, water] =
+        ["sky", "water"].map(|name| act(Action::Name { layer: id(2), name: name.to_owned() }));
+    assert_requests(&mut harness, &[sky]);
     harness.state_mut().painting.layers[1].name = "sky".to_owned();
     harness.run();
     // The double click also chose the layer, so F2 edits it again with its text selected.
@@ -204,7 +204,7 @@ fn a_name_is_edited_by_a_double_click_or_by_f2() {
     harness.get_by_label("name of sky").type_text("water");
     harness.run();
     key(&mut harness, Key::Enter);
-    assert_requests(&mut harness, &[named("water")]);
+    assert_requests(&mut harness, &[water]);
     key(&mut harness, Key::F2);
     harness.get_by_label("name of sky").type_text("x");
     harness.run();
@@ -231,9 +231,9 @@ fn the_menu_renames_moves_and_merges() {
     assert!(!choose("Layer 1", "Move up"), "two are above");
     assert!(!choose("Layer 3", "Move down"), "two are below");
     assert!(!choose("Layer 3", "Merge down"), "one is below");
-    let order = |layer, to| act(Action::Order { layer: id(layer), to });
+    let [lowest, top] = [1, 3].map(|layer| act(Action::Order { layer: id(layer), to: 1 }));
     let merge = act(Action::Merge { layer: id(3), with: Some(id(2)) });
-    assert_requests(&mut harness, &[order(1, 1), order(3, 1), merge]);
+    assert_requests(&mut harness, &[lowest, top, merge]);
     harness.state_mut().painting.layers[1].visible = false;
     harness.run();
     click(&mut harness, "menu of Layer 3");
@@ -259,21 +259,18 @@ fn a_row_is_dragged_to_another_place() {
         harness.step();
         harness.drop_at(to);
         harness.run();
-        std::mem::take(&mut harness.state_mut().requests)
+        format!("{:?}", std::mem::take(&mut harness.state_mut().requests))
     };
-    let row = |harness: &Panel, label: &str| harness.get_by_label(label).rect();
     let probe = three_layers();
-    let top = row(&probe, "choose Layer 3");
-    let middle = row(&probe, "choose Layer 2");
-    let low = row(&probe, "choose Layer 1");
+    let [top, middle, low] = ["choose Layer 3", "choose Layer 2", "choose Layer 1"]
+        .map(|label| probe.get_by_label(label).rect());
     let order = |layer, to| format!("{:?}", [act(Action::Order { layer: id(layer), to })]);
-    let debug = |requests: Vec<Request>| format!("{requests:?}");
-    assert_eq!(debug(drag("Layer 3", low.center_bottom() - vec2(0.0, 2.0), None)), order(3, 0));
-    assert_eq!(debug(drag("Layer 1", top.center_top() + vec2(0.0, 2.0), None)), order(1, 2));
-    assert_eq!(debug(drag("Layer 1", middle.center_top() + vec2(0.0, 2.0), None)), order(1, 1));
+    assert_eq!(drag("Layer 3", low.center_bottom() - vec2(0.0, 2.0), None), order(3, 0));
+    assert_eq!(drag("Layer 1", top.center_top() + vec2(0.0, 2.0), None), order(1, 2));
+    assert_eq!(drag("Layer 1", middle.center_top() + vec2(0.0, 2.0), None), order(1, 1));
     let below = middle.center_top() + vec2(0.0, 2.0);
-    assert_eq!(debug(drag("Layer 3", below, None)), "[]", "it lies there");
-    assert_eq!(debug(drag("Layer 3", low.center(), Some(Key::Escape))), "[]", "left");
+    assert_eq!(drag("Layer 3", below, None), "[]", "it lies there");
+    assert_eq!(drag("Layer 3", low.center(), Some(Key::Escape)), "[]", "left");
 }
 
 #[test]
@@ -382,9 +379,9 @@ fn a_click_goes_to_an_entry_except_the_current_one() {
     click(&mut harness, "4 stroke, flat");
     click(&mut harness, "3 dry 50 %");
     assert_requests(&mut harness, &[travel(1), travel(0), travel(4)]);
-    let chosen = |label: &str| harness.get_by_label(label).accesskit_node().toggled();
-    assert_eq!(chosen("3 dry 50 %"), Some(Toggled::True));
-    assert_eq!(chosen("2 stroke, round"), Some(Toggled::False));
+    let chosen = ["3 dry 50 %", "2 stroke, round"]
+        .map(|label| harness.get_by_label(label).accesskit_node().toggled());
+    assert_eq!(chosen, [Some(Toggled::True), Some(Toggled::False)]);
 }
 
 #[test]
@@ -484,14 +481,14 @@ fn rows_show_the_canvas_after_their_action_and_hovering_enlarges_it() {
     let mut harness = history(painting());
     assert!(harness.query_by_label("Pictures take 3.0 of 24 MiB").is_some());
     if let Some(drawn) = picture(&mut harness, "history-pictures") {
-        let red = |row: &str, x: f32| {
+        let [stroke, dry] = ["2 stroke, round", "3 dry 50 %"].map(|row| {
             let rect = harness.get_by_label(row).rect();
-            let at = drawn.get_pixel((rect.left() + x) as u32, (rect.top() + 5.0) as u32).0;
+            let at = drawn.get_pixel((rect.left() + 42.0) as u32, (rect.top() + 5.0) as u32).0;
             i32::from(at[0]) - i32::from(at[1])
-        };
+        });
         // The third action has no picture, the others have one.
-        assert!(red("2 stroke, round", 42.0) > 60, "{}", red("2 stroke, round", 42.0));
-        assert!(red("3 dry 50 %", 42.0).abs() < 10, "{}", red("3 dry 50 %", 42.0));
+        assert!(stroke > 60, "{stroke}");
+        assert!(dry.abs() < 10, "{dry}");
     }
     harness.get_by_label("2 stroke, round").hover();
     harness.run_steps(60);

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use eframe::egui::{
-    Color32, Event as UiEvent, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton,
-    Pos2, Rect, TouchPhase, Vec2, ViewportId, pos2, vec2,
+    Event as UiEvent, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, Rect,
+    TouchPhase, Vec2, ViewportId, pos2, vec2,
 };
 use egui_kittest::kittest::Queryable;
 use graphics::tile;
@@ -223,9 +223,10 @@ fn seen(window: &Window, second: bool, x_mm: f64, y_mm: f64) -> [i64; 3] {
     let y = (y_mm / 0.1) as usize - 5;
     let rect = tile::Rect { x, y, width: 10, height: 10 };
     let cells = window.studio().canvas.picture(second).unwrap().pixels(rect).pixels;
-    let sum = |channel: fn(&Color32) -> u8| cells.iter().map(|c| i64::from(channel(c))).sum();
-    let sums: [i64; 3] = [sum(Color32::r), sum(Color32::g), sum(Color32::b)];
-    sums.map(|sum| sum / cells.len() as i64)
+    [0, 1, 2].map(|channel: usize| {
+        let sum: i64 = cells.iter().map(|cell| i64::from(cell.to_array()[channel])).sum();
+        sum / cells.len() as i64
+    })
 }
 
 #[test]
@@ -236,13 +237,12 @@ fn a_stroke_lands_at_the_pointer_at_any_rotation() {
         window.studio_mut().canvas.view.mirror = mirror;
         window.harness().run_ok();
         let places = [(16.0, 10.0), (16.0, 5.0), (16.0, 15.0), (4.0, 10.0), (28.0, 10.0)];
-        let look = |window: &Window| places.map(|(x, y)| seen(window, false, x, y));
-        let before = look(&window);
+        let before = places.map(|(x, y)| seen(&window, false, x, y));
         stroke(&mut window);
-        let after = look(&window);
+        let after = places.map(|(x, y)| seen(&window, false, x, y));
         // The pressure of a mouse stroke depends on the speed of the machine.
-        let redness = |[red, green, _]: [i64; 3]| red - green;
-        assert!(redness(after[0]) > redness(before[0]) + 6, "{after:?} in the middle, {turn}");
+        let [bare, red] = [before[0], after[0]].map(|[red, green, _]| red - green);
+        assert!(red > bare + 6, "{after:?} in the middle, {turn}");
         assert_eq!(before[1..], after[1..], "beside the stroke, {turn}");
         window.save(&format!("stroke-{turn}"));
         let Some(picture) = window.picture() else { continue };
@@ -305,15 +305,15 @@ fn the_second_light_is_shown_right_of_a_draggable_line() {
         let mut differ = 0;
         for y in 80..120 {
             let cell = tile::Rect { x, y, width: 1, height: 1 };
-            let reported = |second| {
+            let reported = [false, true].map(|second| {
                 let view = &window.studio().canvas;
                 let [red, green, blue, _] =
                     view.picture(second).unwrap().pixels(cell).pixels[0].to_array();
                 [red, green, blue]
-            };
+            });
             let at = window.studio().canvas.placement().point([x as f64 + 0.5, y as f64 + 0.5]);
-            assert_eq!(window.color(&picture, at), reported(second), "cell {x} {y}");
-            differ += usize::from(reported(false) != reported(true));
+            assert_eq!(window.color(&picture, at), reported[usize::from(second)], "cell {x} {y}");
+            differ += usize::from(reported[0] != reported[1]);
         }
         assert!(differ > 0, "the lights differ in column {x}");
     }

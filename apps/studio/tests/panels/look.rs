@@ -249,15 +249,16 @@ fn everything_that_is_touched_is_44_points_wide_and_high() {
     for action in [Action::Squeeze(heap), Action::Dry { fraction: 1.0 }] {
         window.studio_mut().ask(Command::Apply(action));
     }
-    let layers = |window: &Window| window.studio().painting().map_or(0, |p| p.layers.len());
+    let mut layers = 0;
     // On a busy machine this picture comes after the answers.
     for _ in 0..20 {
         window.settle();
-        if layers(&window) > 0 {
+        layers = window.studio().painting().map_or(0, |p| p.layers.len());
+        if layers > 0 {
             break;
         }
     }
-    assert_eq!(layers(&window), 1, "a layer with its eye");
+    assert_eq!(layers, 1, "a layer with its eye");
     let usual = small(&mut window).len();
     assert!(usual > 20, "the usual density is kept: {usual} small targets");
     set_look(&mut window, (ThemeChoice::Dark, true));

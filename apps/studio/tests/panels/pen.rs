@@ -81,9 +81,7 @@ fn more_pressure_paints_a_broader_stroke() {
     window.studio_mut().pen.feed(Report { device, arrived, kind });
     window.settle();
     let after = window.picture().expect("it was there before");
-    let pixels = |y_mm| painted(&window, &before, &after, y_mm);
-    let heavy = pixels(5.0);
-    let light = pixels(15.0);
+    let [heavy, light] = [5.0, 15.0].map(|y_mm| painted(&window, &before, &after, y_mm));
     assert!(light > 200, "{light} pixels of a light stroke");
     assert!(heavy as f64 > 1.5 * light as f64, "{heavy} pixels pressed, {light} not");
 }
@@ -400,18 +398,19 @@ fn drag_with(window: &mut Window, places: &[(f64, f64)], modifiers: Modifiers) {
         places.iter().map(|&(x, y)| window.point(SurfaceId::Canvas, x, y)).collect();
     let first = points[0];
     let last = points[points.len() - 1];
-    let held = |at: Pos2, pressed: bool| match button(at, pressed) {
+    let buttons = [button(first, true), button(last, false)];
+    let [down, up] = buttons.map(|event| match event {
         Event::PointerButton { pos, button, pressed, .. } => {
             Event::PointerButton { pos, button, pressed, modifiers }
         }
         other => other,
-    };
+    });
     window.frame(vec![Event::ModifiersChanged(modifiers), Event::PointerMoved(first)]);
-    window.frame(vec![held(first, true)]);
+    window.frame(vec![down]);
     for &point in &points[1..] {
         window.frame(vec![Event::PointerMoved(point)]);
     }
-    window.frame(vec![held(last, false), Event::ModifiersChanged(Modifiers::NONE)]);
+    window.frame(vec![up, Event::ModifiersChanged(Modifiers::NONE)]);
     window.settle();
 }
 

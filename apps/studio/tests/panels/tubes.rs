@@ -145,8 +145,9 @@ fn searching_lists_only_matching_pigments() {
     click(&mut harness, "Search");
     harness.event(Event::Text("BLUE".to_owned()));
     harness.run();
-    let rows = |name: &str| harness.query_all_by_label(name).count();
-    assert_eq!((rows("Cobalt Blue"), rows("Prussian Blue"), rows("Vermilion")), (1, 1, 0));
+    let rows = ["Cobalt Blue", "Prussian Blue", "Vermilion"]
+        .map(|name| harness.query_all_by_label(name).count());
+    assert_eq!(rows, [1, 1, 0]);
 }
 
 #[test]
@@ -224,14 +225,13 @@ fn tubes_show_the_colors_of_their_paint() {
     for (slot, name) in PIGMENTS.into_iter().enumerate() {
         let Some(drawn) = &drawn else { return };
         let rect = harness.get_by_label(&format!("tube of {name}")).rect();
-        let at = |share: f32| {
-            let y = rect.top() + rect.height() * share;
-            drawn.get_pixel(rect.center().x as u32, y as u32).0
-        };
-        let opaque = |[red, green, blue]: [u8; 3]| [red, green, blue, 255];
         let painting = &harness.state().painting;
-        assert_eq!(at(0.28), opaque(painting.masstones[slot].unwrap()), "{name}");
-        assert_eq!(at(0.49), opaque(painting.tints[slot].unwrap()), "{name} with white");
+        for (share, color) in [(0.28, painting.masstones[slot]), (0.49, painting.tints[slot])] {
+            let y = rect.top() + rect.height() * share;
+            let [red, green, blue] = color.unwrap();
+            let pixel = drawn.get_pixel(rect.center().x as u32, y as u32).0;
+            assert_eq!(pixel, [red, green, blue, 255], "{name} at {share}");
+        }
     }
     click(&mut harness, "Tubes...");
     picture(&mut harness, "tubes-chooser");

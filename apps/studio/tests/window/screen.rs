@@ -144,9 +144,9 @@ impl Screen {
     }
 
     pub(crate) fn point(&self, (x, y): (i32, i32)) {
-        let at = |length: i32| i16::try_from(length).expect("a place on a screen");
+        let [x, y] = [x, y].map(|length| i16::try_from(length).expect("a place on a screen"));
         self.connection
-            .xtest_fake_input(xproto::MOTION_NOTIFY_EVENT, 0, 0, self.root, at(x), at(y), 0)
+            .xtest_fake_input(xproto::MOTION_NOTIFY_EVENT, 0, 0, self.root, x, y, 0)
             .unwrap();
         self.connection.sync().expect("the server is there");
     }
@@ -188,8 +188,9 @@ impl Screen {
         let steps = (seconds * 125.0).ceil().max(1.0) as i32;
         for step in 1..=steps {
             std::thread::sleep(Duration::from_millis(8));
-            let between = |from: i32, to: i32| from + (to - from) * step / steps;
-            self.point((between(from.0, to.0), between(from.1, to.1)));
+            let x = from.0 + (to.0 - from.0) * step / steps;
+            let y = from.1 + (to.1 - from.1) * step / steps;
+            self.point((x, y));
         }
     }
 
@@ -198,16 +199,17 @@ impl Screen {
         let width = x.len();
         let height = y.len();
         assert!(x.end <= self.size.0.into() && y.end <= self.size.1.into(), "beyond the screen");
-        let whole = |length: usize| u16::try_from(length).expect("a screen is small");
+        let [left, top, across, down] = [x.start, y.start, width, height]
+            .map(|length| u16::try_from(length).expect("a screen is small"));
         let image = self
             .connection
             .get_image(
                 ImageFormat::Z_PIXMAP,
                 self.root,
-                whole(x.start) as i16,
-                whole(y.start) as i16,
-                whole(width),
-                whole(height),
+                left as i16,
+                top as i16,
+                across,
+                down,
                 u32::MAX,
             )
             .unwrap()

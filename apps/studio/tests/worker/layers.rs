@@ -46,14 +46,14 @@ fn layers_report_height_coverage_and_thumbnail() {
         let cells = layer.paint.vehicle.values().len();
         let volumes = (0..cells).map(|index| layer.paint.cell(index).volume());
         let painted: Vec<u32> = volumes.filter(|&volume| volume > 0).collect();
-        let mm = |quanta: f64| quanta * mm_from_quanta(1, 0.1);
+        let mm = mm_from_quanta(1, 0.1);
         let sum: f64 = painted.iter().map(|&volume| f64::from(volume)).sum();
         assert!(
-            (reported.mean_mm - mm(sum / painted.len() as f64)).abs() < 1e-9,
+            (reported.mean_mm - sum / painted.len() as f64 * mm).abs() < 1e-9,
             "{}",
             reported.mean_mm
         );
-        assert_eq!(reported.max_mm, mm(f64::from(*painted.iter().max().unwrap())));
+        assert_eq!(reported.max_mm, f64::from(*painted.iter().max().unwrap()) * mm);
         assert!(
             (reported.coverage - painted.len() as f64 / cells as f64).abs() < 1e-12,
             "its share"

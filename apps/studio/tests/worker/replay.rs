@@ -381,12 +381,12 @@ fn refusals_come_with_a_hint_and_leave_the_painting_alone() {
     let moon = Lighting { illuminant: "moonlight".to_owned(), ..Lighting::default() };
     let other = Action::Palette(paint::strokes::PaletteSpec::from_names(["Zinc White"]));
     let broom = BrushSpec { shape: HeadShape::Round, size_mm: 4000.0 };
-    let missing = |layer| Action::Opacity { layer: LayerRef::Dry(layer), value: 0.5 };
+    let missing = Action::Opacity { layer: LayerRef::Dry(2), value: 0.5 };
     let refused = [
         (Command::Apply(load("rond", "Ultramarine")), "rond", Some("round")),
         (Command::Apply(load("round", "Ultramarin Blau")), "Ultramarin Blau", Some("Ultramarine")),
-        (Command::Apply(missing(2)), "dry layers", None),
-        (Command::Adjust(missing(2)), "dry layers", None),
+        (Command::Apply(missing.clone()), "dry layers", None),
+        (Command::Adjust(missing), "dry layers", None),
         (Command::Apply(Action::Light(moon.clone())), "moonlight", None),
         (Command::SetSecondLight(Some(moon)), "moonlight", None),
         (Command::Apply(other), "Ultramarine is still wet", Some("dry the painting")),

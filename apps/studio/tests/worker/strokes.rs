@@ -113,8 +113,8 @@ fn a_snapshot_does_not_wait_for_the_pen() {
 fn a_window_that_does_not_poll_gets_few_tiles_and_then_all_changes() {
     let mut window = Window::open(BackendChoice::Cpu);
     window.wait_until("both pictures", |window| {
-        let opaque = |pixels: &[[u8; 4]]| pixels.iter().all(|pixel| pixel[3] == 255);
-        opaque(&window.pictures.canvas) && opaque(&window.pictures.palette)
+        let pictures = [&window.pictures.canvas, &window.pictures.palette];
+        pictures.into_iter().flatten().all(|pixel| pixel[3] == 255)
     });
     window.act(load("round", "Vermilion"));
     let samples = wander(5, 600, 32.0, 20.0);

@@ -96,12 +96,13 @@ impl Window {
         for event in events {
             match &event {
                 Event::Opened(state) => {
-                    let cells = |(width, height)| vec![[0; 4]; width * height];
+                    let [canvas, palette] = [state.canvas_cells, state.palette_cells]
+                        .map(|(width, height)| vec![[0; 4]; width * height]);
                     self.pictures = Pictures {
-                        canvas: cells(state.canvas_cells),
-                        second: cells(state.canvas_cells),
-                        palette: cells(state.palette_cells),
-                        second_palette: cells(state.palette_cells),
+                        second: canvas.clone(),
+                        second_palette: palette.clone(),
+                        canvas,
+                        palette,
                     };
                     self.state = Some(Arc::clone(state));
                 }

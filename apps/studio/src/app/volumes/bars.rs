@@ -33,9 +33,9 @@ pub(super) fn show_menus(
             (SceneMenu::Help, tr("Help"), tr("The table of keys")),
         ] {
             let opened = menu_button(ui, name, |ui| {
-                let own = || SCENE_ENTRIES.iter().filter(move |entry| entry.menu == menu);
-                let ticks = own().any(|entry| checked(entry.intent, state).is_some());
-                for entry in own() {
+                let own: Vec<_> = SCENE_ENTRIES.iter().filter(|entry| entry.menu == menu).collect();
+                let ticks = own.iter().any(|entry| checked(entry.intent, state).is_some());
+                for entry in own {
                     if begins_group(entry.intent) {
                         ui.separator();
                     }
@@ -78,7 +78,6 @@ fn begins_group(intent: SceneIntent) -> bool {
 
 /// Whether an intent has an effect.
 pub(super) fn enabled(intent: SceneIntent, state: Option<&SceneState>) -> bool {
-    let some = |fits: &dyn Fn(&SceneState) -> bool| state.is_some_and(fits);
     match intent {
         SceneIntent::New
         | SceneIntent::Open
@@ -88,8 +87,8 @@ pub(super) fn enabled(intent: SceneIntent, state: Option<&SceneState>) -> bool {
         | SceneIntent::Panels
         | SceneIntent::FullScreen
         | SceneIntent::Keys => true,
-        SceneIntent::Undo => some(&|state| !state.events.is_empty()),
-        SceneIntent::Inside => some(&|state| !state.tubes.is_empty()),
+        SceneIntent::Undo => state.is_some_and(|state| !state.events.is_empty()),
+        SceneIntent::Inside => state.is_some_and(|state| !state.tubes.is_empty()),
         _ => state.is_some(),
     }
 }

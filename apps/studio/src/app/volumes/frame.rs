@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use eframe::egui::{
     Align, CentralPanel, Context, Event, FocusDirection, Frame, Key, Label, Layout, Margin, Panel,
-    RichText, Ui, ViewportCommand,
+    Ui, ViewportCommand,
 };
 use session::volumes::{Inside, SceneState, Show, VolumeCommand};
 use web_time::{Duration, Instant};
@@ -13,6 +13,7 @@ use super::bars;
 use super::bars::enabled;
 use super::intent::{SceneIntent, scene_key_rows};
 use super::workspace::Volumes;
+use crate::app::bars::small;
 use crate::files::Files;
 use crate::keymap::{KeyTable, installed};
 use crate::language::{tr, tr_format};
@@ -250,13 +251,11 @@ impl Volumes {
             ui.weak(tr("preparing the scene"));
             return;
         };
-        let faint = theme::colors(ui.ctx()).faint;
-        let small = |text: &str| RichText::new(text).small().color(faint);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.spacing_mut().item_spacing.x = 14.0;
             if state.time.playing {
                 let speed = tr_format!("{speed:.0} % of real time", speed = 100.0 * state.time.speed);
-                ui.label(small(&speed)).on_hover_text(tr("Speed of time over the last second"));
+                ui.label(small(ui, &speed)).on_hover_text(tr("Speed of time over the last second"));
             }
             let moves = self.shown_at.is_some_and(|at| at.elapsed() < Duration::from_secs(1));
             let rate = if moves { self.frames.rate().frames_a_second } else { 0.0 };
@@ -264,11 +263,11 @@ impl Volumes {
                 1.0 => tr("1 picture/s").to_owned(),
                 _ => tr_format!("{rate:.0} pictures/s", rate),
             };
-            ui.label(small(&rate))
+            ui.label(small(ui, &rate))
                 .on_hover_text(tr("Pictures drawn in the last second; none while the scene rests"));
-            ui.label(small(&paint_text(state)))
+            ui.label(small(ui, &paint_text(state)))
                 .on_hover_text(tr("Paint poured, on the surfaces, taken up, and left in the tubes"));
-            ui.label(small(&volumes_text(state)))
+            ui.label(small(ui, &volumes_text(state)))
                 .on_hover_text(tr("Volumes of paint, and the particles of all of them"));
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                 if state.prepares {

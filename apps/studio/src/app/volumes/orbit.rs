@@ -75,8 +75,9 @@ impl Orbit {
         let elevation_deg = (from_target.y / distance).asin().to_degrees();
         let azimuth_deg = from_target.x.atan2(from_target.z).to_degrees();
         // This camera keeps its field of view, and things at the target keep their size.
-        let tangent = |degrees: f32| (0.5 * degrees).to_radians().tan();
-        let distance = distance * tangent(camera.field_of_view_deg) / tangent(FIELD_DEG);
+        let [theirs, own] =
+            [camera.field_of_view_deg, FIELD_DEG].map(|degrees| (0.5 * degrees).to_radians().tan());
+        let distance = distance * theirs / own;
         let angles = [azimuth_deg, elevation_deg.clamp(-STEEPEST_DEG, STEEPEST_DEG)];
         Self { angles, target: camera.target, distance, framed: false, ..self }
     }
@@ -162,6 +163,11 @@ mod tests {
         Orbit::around(BOX, framing.camera(BOX))
     }
 
+    fn corner_of_box(corner: usize) -> Vec3 {
+        let [x, y, z] = [1, 2, 4].map(|bit| BOX[usize::from(corner & bit != 0)]);
+        Vec3::new(x.x, y.y, z.z)
+    }
+
     /// Place in the picture, from the middle, in halves of its width and height.
     fn seen(orbit: &Orbit, place: Vec3) -> [f32; 2] {
         let clip = orbit.camera().clip_from_model(orbit.aspect) * place.extend(1.0);
@@ -175,8 +181,7 @@ mod tests {
             let mut orbit = framed_box();
             orbit.set_aspect(aspect);
             for corner in 0..8 {
-                let side = |bit: usize| BOX[usize::from(corner & bit != 0)];
-                let place = Vec3::new(side(1).x, side(2).y, side(4).z);
+                let place = corner_of_box(corner);
                 let [x, y] = seen(&orbit, place);
                 assert!(x.abs() < 1.0 && y.abs() < 1.0, "{corner} at {x} {y}, {aspect}");
             }
@@ -239,8 +244,7 @@ mod tests {
             let camera = orbit.camera();
             let [_, _, back] = camera.axes();
             for corner in 0..8 {
-                let side = |bit: usize| BOX[usize::from(corner & bit != 0)];
-                let place = Vec3::new(side(1).x, side(2).y, side(4).z);
+                let place = corner_of_box(corner);
                 let depth = (camera.eye - place).dot(back);
                 assert!(camera.near < depth && depth < camera.far, "{depth} of {camera:?}");
             }
@@ -258,11 +262,12 @@ mod tests {
         orbit.turn(vec2(0.0, -40.0));
         let lower = orbit.camera();
         assert!(lower.eye.y < aside.eye.y, "{lower:?}");
-        let flat = |camera: Camera| (camera.eye - camera.target) * Vec3::new(1.0, 0.0, 1.0);
-        let [before, after] = [aside, lower].map(|camera| flat(camera).normalize());
+        let [start, aside, lower] = [start, aside, lower]
+            .map(|camera| (camera.eye - camera.target) * Vec3::new(1.0, 0.0, 1.0));
+        let [before, after] = [aside, lower].map(Vec3::normalize);
         assert!(before.distance(after) < 1e-4, "{before} {after}");
         // A drag of one point turns by 0.35 degrees.
-        let turned = flat(start).angle_between(flat(aside)).to_degrees();
+        let turned = start.angle_between(aside).to_degrees();
         assert!((turned - 14.0).abs() < 0.01, "{turned}");
     }
 }

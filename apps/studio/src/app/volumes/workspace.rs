@@ -85,11 +85,10 @@ impl Volumes {
     #[must_use]
     pub fn new(context: &Context) -> Self {
         let woken = context.clone();
-        let wake = move || pace::wake(&woken);
         #[cfg(not(target_arch = "wasm32"))]
-        let worker = VolumeWorker::start(wake);
+        let worker = VolumeWorker::start(move || pace::wake(&woken));
         #[cfg(target_arch = "wasm32")]
-        let worker = VolumeWorker::in_turns(wake);
+        let worker = VolumeWorker::in_turns(move || pace::wake(&woken));
         Self {
             tools: SceneTools::default(),
             orbit: Orbit::around([Vec3::NEG_ONE, Vec3::ONE], NOWHERE),
@@ -318,11 +317,13 @@ impl Volumes {
         let blocked = self.state.is_none()
             || Popup::is_any_open(context)
             || context.memory(|memory| memory.top_modal_layer().is_some());
-        let covered = |point| {
-            let above = context.layer_id_at(point);
-            blocked || above.is_some_and(|layer| layer.order != eframe::egui::Order::Background)
+        let targets = PenTargets {
+            surfaces: &[plane],
+            covered: &|point| {
+                let above = context.layer_id_at(point);
+                blocked || above.is_some_and(|layer| layer.order != eframe::egui::Order::Background)
+            },
         };
-        let targets = PenTargets { surfaces: &[plane], covered: &covered };
         let events: Vec<Event> = ui.input(|input| input.events.clone());
         // Paint pours at once. It has no brush and no direction that we could wait for.
         pen.settings.follow = false;

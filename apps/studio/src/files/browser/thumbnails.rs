@@ -161,18 +161,18 @@ mod tests {
     #[test]
     fn pictures_are_small_and_files_without_one_are_plain() {
         let folder = tempfile::tempdir().unwrap();
-        let path = |name: &str| folder.path().join(name);
+        let path = folder.path();
         for name in ["a.png", "a.tif", "a.WEBP"] {
-            image::RgbImage::new(400, 200).save(path(name)).unwrap();
+            image::RgbImage::new(400, 200).save(path.join(name)).unwrap();
         }
-        std::fs::write(path("b.exr"), "cut off").unwrap();
-        std::fs::write(path("c.json"), "{}").unwrap();
+        std::fs::write(path.join("b.exr"), "cut off").unwrap();
+        std::fs::write(path.join("c.json"), "{}").unwrap();
         let mut thumbnails = Thumbnails::default();
         for name in ["a.png", "a.tif", "a.WEBP"] {
-            assert_eq!(picture(&mut thumbnails, &path(name)), Some([192, 96]), "{name}");
+            assert_eq!(picture(&mut thumbnails, &path.join(name)), Some([192, 96]), "{name}");
         }
-        assert_eq!(picture(&mut thumbnails, &path("b.exr")), None, "it cannot be read");
-        assert_eq!(picture(&mut thumbnails, &path("c.json")), None, "it is not a picture");
+        assert_eq!(picture(&mut thumbnails, &path.join("b.exr")), None, "it cannot be read");
+        assert_eq!(picture(&mut thumbnails, &path.join("c.json")), None, "it is not a picture");
         assert_eq!(thumbnails.known.len(), 4, "the JSON was not read");
     }
 

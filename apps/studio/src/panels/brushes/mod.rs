@@ -186,8 +186,9 @@ impl Brushes {
             let gap = if theme::is_touch(ui.ctx()) { 0.0 } else { 2.0 };
             ui.spacing_mut().item_spacing = Vec2::splat(gap);
             // This is narrower than their share, because rounding would wrap the last one.
-            let share = |count: f32| ((ui.available_width() + gap) / count - gap).floor();
-            let width = if share(8.0) < theme::target(ui) { share(4.0) } else { share(8.0) };
+            let [quarter, eighth] =
+                [4.0, 8.0].map(|count: f32| ((ui.available_width() + gap) / count - gap).floor());
+            let width = if eighth < theme::target(ui) { quarter } else { eighth };
             for shape in HeadShape::ALL {
                 let size = vec2(width, 44.0);
                 let (rect, response) = ui.allocate_exact_size(size, Sense::click());
@@ -503,14 +504,14 @@ impl BrushList {
 
     /// A name that is free both as name and as label, e.g. `flat` or `flat 2`.
     fn free_name(&self, base: &str, painting: &PaintingState) -> String {
-        let exists = |name: &str| {
-            self.brushes.iter().any(|entry| entry.name == name || entry.label == name)
-                || painting.brushes.iter().any(|brush| brush.name == name)
-        };
         let stem = stem(base);
         let numbered = (2..).map(|number| format!("{stem} {number}"));
         let mut names = std::iter::once(stem.to_owned()).chain(numbered);
-        names.find(|name| !exists(name)).expect("there is always a free number")
+        let free = names.find(|name| {
+            !self.brushes.iter().any(|entry| entry.name == *name || entry.label == *name)
+                && !painting.brushes.iter().any(|brush| brush.name == *name)
+        });
+        free.expect("there is always a free number")
     }
 }
 

@@ -161,10 +161,10 @@ impl TipPreview {
         ui.painter().rect_filled(rect, theme::CORNER_RADIUS, colors.well);
         let field = vec2(rect.width() / PRESSURES.len() as f32, rect.height());
         let room = vec2(field.x - 12.0, field.y - LABEL - 10.0);
-        let most = |axis: usize| {
+        let [widest, highest] = [0, 1].map(|axis: usize| {
             marks.iter().map(|mark| mark.size_mm[axis]).fold(f64::MIN_POSITIVE, f64::max) as f32
-        };
-        let points_per_mm = (room.x / most(0)).min(room.y / most(1));
+        });
+        let points_per_mm = (room.x / widest).min(room.y / highest);
         for (at, ((name, _), mark)) in PRESSURES.iter().zip(marks).enumerate() {
             let left = rect.left() + at as f32 * field.x;
             let whole = Rect::from_min_size(pos2(left, rect.top()), field);
@@ -321,11 +321,13 @@ pub(in crate::panels) fn draw(
 
 /// Outline of the head as a closed polygon, tip up.
 fn outline(contour: &[(f32, f32)], foot: Pos2, scale: f32) -> Vec<Pos2> {
-    let at = |side: f32, (along, half): (f32, f32)| {
-        pos2(foot.x + side * half * scale, foot.y - along * scale)
-    };
-    let up = contour.iter().map(|&point| at(-1.0, point));
-    let down = contour.iter().rev().filter(|point| point.1 > 0.0).map(|&point| at(1.0, point));
+    let up =
+        contour.iter().map(|&(along, half)| pos2(foot.x - half * scale, foot.y - along * scale));
+    let down = contour
+        .iter()
+        .rev()
+        .filter(|point| point.1 > 0.0)
+        .map(|&(along, half)| pos2(foot.x + half * scale, foot.y - along * scale));
     up.chain(down).collect()
 }
 

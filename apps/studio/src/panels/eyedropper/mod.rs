@@ -280,8 +280,11 @@ fn show_picked(ui: &mut Ui, cx: &mut PanelContext<'_>, picked: &Picked) -> bool 
     recipes_requested
 }
 
+fn three(values: [f64; 3]) -> String {
+    values.map(|value| format!("{value:.2}")).join(" ")
+}
+
 fn numbers(ui: &mut Ui, appearance: &Appearance, picked: &Picked) {
-    let three = |values: [f64; 3]| values.map(|value| format!("{value:.2}")).join(" ");
     let grid = Grid::new("picked numbers").num_columns(2).min_row_height(16.0);
     grid.spacing(vec2(8.0, 1.0)).show(ui, |ui| {
         ui.weak("Lab").on_hover_text(tr("CIELAB under the light of the painting"));

@@ -209,8 +209,8 @@ fn drying(ui: &mut Ui, cx: &mut PanelContext<'_>) {
 }
 
 fn states(layers: &[LayerState], ids: [LayerId; 2]) -> Option<[&LayerState; 2]> {
-    let find = |id: LayerId| layers.iter().find(|layer| layer.id == id);
-    Some([find(ids[0])?, find(ids[1])?])
+    let [first, second] = ids.map(|id| layers.iter().find(|layer| layer.id == id));
+    Some([first?, second?])
 }
 
 /// Why two dry layers cannot be merged, if we know it before comparing the paint.

@@ -4,13 +4,14 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use eframe::egui::{
-    Color32, EventFilter, Key, Mesh, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, Vec2,
-    WidgetInfo, lerp, pos2, remap_clamp, vec2,
+    Color32, Mesh, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, lerp, pos2,
+    remap_clamp, vec2,
 };
 use paint::optics::Gloss;
 use spectra::color::Rgb;
 
 use super::super::context::Edit;
+use super::super::controls::arrow_keys;
 use crate::language::{tr, tr_format};
 use crate::theme;
 
@@ -122,21 +123,6 @@ pub(in crate::panels) fn direction_control(
 pub(in crate::panels) fn direction_text(direction: Direction) -> String {
     let Direction { azimuth_deg, elevation_deg } = direction;
     tr_format!("{azimuth_deg:.0}\u{b0}, {elevation_deg:.0}\u{b0} high", azimuth_deg, elevation_deg)
-}
-
-/// Arrow key steps to the right and up in this frame.
-fn arrow_keys(ui: &Ui, response: &Response) -> (f64, f64) {
-    if !response.has_focus() {
-        return (0.0, 0.0);
-    }
-    let arrows =
-        EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
-    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
-    ui.input(|input| {
-        let presses = |key| input.num_presses(key) as f64;
-        let across = presses(Key::ArrowRight) - presses(Key::ArrowLeft);
-        (across, presses(Key::ArrowUp) - presses(Key::ArrowDown))
-    })
 }
 
 /// Mesh of a matt hemisphere under the light, in screen greys.
@@ -281,13 +267,12 @@ fn highlight(rect: Rect, gloss: Gloss) -> Shape {
             mesh.colored_vertex(place, Color32::from_gray(grey));
         }
     }
-    let vertex = |row: usize, column: usize| (row * (CELLS + 1) + column) as u32;
     for row in 0..CELLS {
         for column in 0..CELLS {
-            let [a, b] = [vertex(row, column), vertex(row, column + 1)];
-            let [c, d] = [vertex(row + 1, column), vertex(row + 1, column + 1)];
-            mesh.add_triangle(a, b, d);
-            mesh.add_triangle(a, d, c);
+            let upper = (row * (CELLS + 1) + column) as u32;
+            let lower = upper + CELLS as u32 + 1;
+            mesh.add_triangle(upper, upper + 1, lower + 1);
+            mesh.add_triangle(upper, lower + 1, lower);
         }
     }
     Shape::mesh(mesh)

@@ -5,7 +5,7 @@ mod direction;
 
 use std::sync::Arc;
 
-use eframe::egui::{Button, Color32, ComboBox, Grid, Slider, Ui, vec2};
+use eframe::egui::{Button, ComboBox, Grid, Slider, Ui, vec2};
 use paint::document::Lighting;
 use paint::light::Light;
 use paint::optics::Gloss;
@@ -151,16 +151,13 @@ impl LightPanel {
 
     fn spectrum(&mut self, ui: &mut Ui, cx: &PanelContext<'_>) {
         let light = &cx.painting.light;
-        let mut others = Vec::new();
-        let mut add = |name: Option<String>, color: Color32| {
-            let other = name.and_then(|name| light_from_text(&name).ok());
-            others.extend(other.map(|other| (other, color)));
-        };
-        add(
-            cx.painting.second_lighting.as_ref().map(|second| second.illuminant.clone()),
-            theme::colors(ui.ctx()).faint,
-        );
-        add(self.first.preview().or(self.second.preview()), theme::colors(ui.ctx()).strong);
+        let second = cx.painting.second_lighting.as_ref().map(|second| second.illuminant.clone());
+        let preview = self.first.preview().or(self.second.preview());
+        let colors = theme::colors(ui.ctx());
+        let others: Vec<_> = [(second, colors.faint), (preview, colors.strong)]
+            .into_iter()
+            .filter_map(|(name, color)| Some((light_from_text(&name?).ok()?, color)))
+            .collect();
         power_chart(ui, light, &others);
         if !self.white.as_ref().is_some_and(|white| white.is_of(light)) {
             self.white = Some(White::of(light));
@@ -257,12 +254,12 @@ impl LightPanel {
 }
 
 fn same_lighting(a: &Lighting, b: &Lighting) -> bool {
-    let numbers =
-        |l: &Lighting| [l.azimuth_deg, l.elevation_deg, l.ambient, l.relief, l.adaptation];
+    let [numbers, others] =
+        [a, b].map(|l| [l.azimuth_deg, l.elevation_deg, l.ambient, l.relief, l.adaptation]);
     // Recorded lighting has six digits, so it may differ slightly.
     a.illuminant == b.illuminant
         && a.observer == b.observer
-        && numbers(a).into_iter().zip(numbers(b)).all(|(a, b)| (a - b).abs() < 1e-3)
+        && numbers.into_iter().zip(others).all(|(a, b)| (a - b).abs() < 1e-3)
 }
 
 fn same_gloss(a: &(Gloss, Gloss), b: &(Gloss, Gloss)) -> bool {

@@ -71,21 +71,21 @@ impl Picture {
     /// the picture.
     pub(super) fn mean(&self, [x, y]: [f32; 2], radius: f32, exposure: f32) -> Option<[f64; 3]> {
         let [width, height] = self.size();
-        let reduction = |side: usize, own: usize| side as f32 / own as f32;
-        let x = x * reduction(width, self.file_size[0]);
-        let y = y * reduction(height, self.file_size[1]);
-        let radius = radius * reduction(width, self.file_size[0]);
+        let reduction = width as f32 / self.file_size[0] as f32;
+        let x = x * reduction;
+        let y = y * (height as f32 / self.file_size[1] as f32);
+        let radius = radius * reduction;
         if !(0.0..width as f32).contains(&x) || !(0.0..height as f32).contains(&y) {
             return None;
         }
-        let range = |at: f32, count: usize| {
+        let [columns, rows] = [(x, width), (y, height)].map(|(at, count)| {
             let first = (at - radius).floor().max(0.0) as usize;
             first..=((at + radius).floor() as usize).min(count - 1)
-        };
+        });
         let mut sum = [0.0; 3];
         let mut count = 0.0;
-        for row in range(y, height) {
-            for column in range(x, width) {
+        for row in rows {
+            for column in columns.clone() {
                 let distance = (column as f32 + 0.5 - x).hypot(row as f32 + 0.5 - y);
                 if distance <= radius || (column, row) == (x as usize, y as usize) {
                     count += 1.0;
@@ -362,10 +362,11 @@ mod tests {
         let mut linear = Linear::filled(7, 7, [0.0; 3]);
         linear.values_mut()[3 * 7 + 5] = [1.0; 3];
         let picture = Picture { linear, file_size: [7, 7], scene_linear: false };
-        let green = |radius: f32| picture.mean([3.5, 3.5], radius, 0.0).unwrap()[1];
-        assert_eq!(green(1.9), 0.0, "the white pixel is two pixels away");
+        let [smaller, larger] =
+            [1.9, 2.0].map(|radius| picture.mean([3.5, 3.5], radius, 0.0).unwrap()[1]);
+        assert_eq!(smaller, 0.0, "the white pixel is two pixels away");
         // 13 pixel centres lie within a distance of 2 from a pixel centre.
-        assert!((green(2.0) - 1.0 / 13.0).abs() < 1e-9, "{}", green(2.0));
+        assert!((larger - 1.0 / 13.0).abs() < 1e-9, "{larger}");
     }
 
     #[test]

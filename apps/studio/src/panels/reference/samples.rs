@@ -359,9 +359,9 @@ fn inside(from: [f64; 2], to: [f64; 2], most: [f64; 2]) -> Option<[[f64; 2]; 2]>
             }
         }
     }
-    let at = |share: f64| [0, 1].map(|axis| from[axis] + share * (to[axis] - from[axis]));
-    let end = if last == 1.0 { to } else { at(last) };
-    (first <= last).then(|| [at(first), end])
+    let [start, end] = [first, last]
+        .map(|share| [0, 1].map(|axis: usize| from[axis] + share * (to[axis] - from[axis])));
+    (first <= last).then_some([start, if last == 1.0 { to } else { end }])
 }
 
 /// The ends of a line, and each point between that is farther than `tolerance` from the line
@@ -373,9 +373,10 @@ fn simplified(points: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
     (kept[0], kept[last]) = (true, true);
     let mut pieces = vec![(0, last)];
     while let Some((from, to)) = pieces.pop() {
-        let far = |at: usize| distance(points[at], [points[from], points[to]]);
-        let farthest = (from + 1..to).max_by(|&one, &other| far(one).total_cmp(&far(other)));
-        if let Some(at) = farthest.filter(|&at| far(at) > tolerance) {
+        let distances =
+            (from + 1..to).map(|at| (distance(points[at], [points[from], points[to]]), at));
+        let farthest = distances.max_by(|one, other| one.0.total_cmp(&other.0));
+        if let Some((_, at)) = farthest.filter(|(far, _)| *far > tolerance) {
             kept[at] = true;
             pieces.extend([(from, at), (at, to)]);
         }

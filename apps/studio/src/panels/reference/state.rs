@@ -356,8 +356,8 @@ impl Overlay<'_> {
     /// Draws a distance of strokes: a line with a bar across each end.
     pub(super) fn spacing(&self, [from, to]: [Pos2; 2], color: Color32) {
         let across = BAR * (to - from).normalized().rot90();
-        let bar = |end: Pos2| vec![end - across, end + across];
-        self.lines(&[vec![from, to], bar(from), bar(to)], color, false);
+        let [first, last] = [from, to].map(|end| vec![end - across, end + across]);
+        self.lines(&[vec![from, to], first, last], color, false);
     }
 
     /// Draws a guide with its number and arrows along it, thicker if it is selected.
@@ -402,17 +402,16 @@ impl Overlay<'_> {
 
 /// Tips and directions of the arrows on a line: in the middle of its length, and at its end.
 fn arrows(points: &[Pos2]) -> Vec<(Pos2, Vec2)> {
-    let pieces =
-        || points.windows(2).map(|ends| [ends[0], ends[1]]).filter(|[from, to]| from != to);
-    let half = 0.5 * pieces().map(|[from, to]| from.distance(to)).sum::<f32>();
-    let mut left = half;
-    let middle = pieces().find_map(|[from, to]| {
+    let pieces = points.windows(2).map(|ends| [ends[0], ends[1]]);
+    let pieces: Vec<[Pos2; 2]> = pieces.filter(|[from, to]| from != to).collect();
+    let mut left = 0.5 * pieces.iter().map(|[from, to]| from.distance(*to)).sum::<f32>();
+    let middle = pieces.iter().find_map(|&[from, to]| {
         let before = left;
         let along = (to - from).normalized();
         left -= from.distance(to);
         (left <= 0.0).then(|| (from + before * along, along))
     });
-    let last = pieces().next_back().map(|[from, to]| (to, (to - from).normalized()));
+    let last = pieces.last().map(|&[from, to]| (to, (to - from).normalized()));
     middle.into_iter().chain(last).collect()
 }
 

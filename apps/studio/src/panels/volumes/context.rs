@@ -234,8 +234,9 @@ fn track(ui: &Ui, rect: Rect, response: Response, cx: &mut SceneContext<'_>) {
         }
     }
     if response.has_focus() {
-        let presses = |key| ui.input(|input| input.num_presses(key)) as i64;
-        let steps = presses(Key::ArrowRight) - presses(Key::ArrowLeft);
+        let [right, left] = [Key::ArrowRight, Key::ArrowLeft]
+            .map(|key| ui.input(|input| input.num_presses(key)) as i64);
+        let steps = right - left;
         if steps != 0 {
             let to = time.step.saturating_add_signed(12 * steps).min(time.end);
             cx.command(VolumeCommand::Seek(to));

@@ -280,24 +280,24 @@ impl Symmetry {
     /// The twins of a stroke, which are painted together with it.
     #[must_use]
     pub fn twins(&self) -> Vec<Twin> {
-        let twin = |matrix| Twin { centre: self.centre, matrix };
         let (sin, cos) = sin_cos(2.0 * self.angle_deg);
         let sides = [[-cos, -sin], [-sin, cos]];
         let ends = sides.map(|row| row.map(|number| -number));
-        match self.kind {
-            SymmetryKind::Vertical => vec![twin(sides)],
-            SymmetryKind::Horizontal => vec![twin(ends)],
-            SymmetryKind::Both => vec![twin(sides), twin(ends), twin([[-1.0, 0.0], [0.0, -1.0]])],
+        let matrices = match self.kind {
+            SymmetryKind::Vertical => vec![sides],
+            SymmetryKind::Horizontal => vec![ends],
+            SymmetryKind::Both => vec![sides, ends, [[-1.0, 0.0], [0.0, -1.0]]],
             SymmetryKind::Radial => {
                 let arms = self.arms.clamp(*ARMS.start(), *ARMS.end());
                 (1..arms)
                     .map(|arm: u8| {
                         let (sin, cos) = sin_cos(360.0 * f64::from(arm) / f64::from(arms));
-                        twin([[cos, -sin], [sin, cos]])
+                        [[cos, -sin], [sin, cos]]
                     })
                     .collect()
             }
-        }
+        };
+        matrices.into_iter().map(|matrix| Twin { centre: self.centre, matrix }).collect()
     }
 
     /// Directions of the axes from the centre, of length 1: the arms, or both sides of each mirror.
@@ -340,8 +340,9 @@ impl Twin {
     #[must_use]
     pub fn sample(&self, sample: &Sample) -> Sample {
         let [x_mm, y_mm] = self.place([sample.x_mm, sample.y_mm]);
-        let slope = |degrees: f64| degrees.clamp(-89.0, 89.0).to_radians().tan();
-        let tilt = self.way([slope(sample.tilt_x_deg), slope(sample.tilt_y_deg)]);
+        let slopes = [sample.tilt_x_deg, sample.tilt_y_deg]
+            .map(|degrees| degrees.clamp(-89.0, 89.0).to_radians().tan());
+        let tilt = self.way(slopes);
         let [tilt_x_deg, tilt_y_deg] = tilt.map(|slope| slope.atan().to_degrees());
         let (sin, cos) = sin_cos(sample.twist_deg);
         let [right, down] = self.way([cos, sin]);

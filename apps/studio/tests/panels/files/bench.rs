@@ -41,7 +41,7 @@ pub(super) fn painted(title: &str) -> Document {
         let mut parts = [0.0; 8];
         parts[pigment] = 1.0;
         painting.load(brush, &parts, 0.1, 0.3).unwrap();
-        let sample = |seconds: f64| Sample {
+        let samples = [0.0, 0.5, 1.0].map(|seconds| Sample {
             seconds,
             x_mm: 3.0 + 18.0 * seconds,
             y_mm: y_mm + 2.0 * seconds,
@@ -49,8 +49,8 @@ pub(super) fn painted(title: &str) -> Document {
             tilt_x_deg: 0.0,
             tilt_y_deg: 10.0,
             twist_deg: 0.0,
-        };
-        painting.stroke(brush, &[sample(0.0), sample(0.5), sample(1.0)]).unwrap();
+        });
+        painting.stroke(brush, &samples).unwrap();
         if pigment == 3 {
             assert!(painting.dry(1.0).unwrap(), "there is paint to dry");
         }
@@ -68,13 +68,13 @@ fn brushes(canvas: &Document) -> Vec<KeptBrush> {
     let mut paint = Layer::empty(7, 5);
     let used = canvas.slots.iter().position(Option::is_some).unwrap();
     paint.pigments[(3, 2)][used] = 1234;
-    let brush = |name: &str, paint| KeptBrush {
+    let brushes = [("big", Some(paint)), ("clean", None)].map(|(name, paint)| KeptBrush {
         name: name.to_owned(),
         spec: BrushSpec { shape: paint::brush::HeadShape::Round, size_mm: 2.0 },
         at: SurfaceId::Palette,
         paint,
-    };
-    vec![brush("big", Some(paint)), brush("clean", None)]
+    });
+    brushes.into()
 }
 
 /// State that a worker would report for `document`.

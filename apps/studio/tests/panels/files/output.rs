@@ -283,17 +283,19 @@ fn a_timelapse_is_written_in_each_form() {
     let mut window = window(folder.path(), painted("A"));
     let script = recorded(&window);
     window.state_mut().recorded = Some(script);
-    let path = |name: &str| folder.path().join(name);
+    let path = folder.path();
 
     export(&mut window, "GIF", "film.gif");
-    until(&mut window, "the GIF", |window| shows(window, "Exported") && path("film.gif").is_file());
-    let gif = std::fs::read(path("film.gif")).unwrap();
+    until(&mut window, "the GIF", |window| {
+        shows(window, "Exported") && path.join("film.gif").is_file()
+    });
+    let gif = std::fs::read(path.join("film.gif")).unwrap();
     assert!(gif.starts_with(b"GIF89a") && gif[6..10] == [120, 0, 80, 0], "a pixel a cell");
 
     export(&mut window, "Animated PNG", "film.png");
-    let left = path(".film.png.frames");
-    until(&mut window, "the APNG", |_| path("film.png").is_file() && !left.exists());
-    let apng = std::fs::read(path("film.png")).unwrap();
+    let left = path.join(".film.png.frames");
+    until(&mut window, "the APNG", |_| path.join("film.png").is_file() && !left.exists());
+    let apng = std::fs::read(path.join("film.png")).unwrap();
     let apng = PngDecoder::new(Cursor::new(apng)).unwrap().apng().unwrap().into_frames();
     let apng = apng.collect_frames().unwrap();
     assert_eq!(apng.len(), 3, "the start, and one after each stroke");
@@ -304,7 +306,7 @@ fn a_timelapse_is_written_in_each_form() {
     }
 
     export(&mut window, "Folder of PNG frames", "film");
-    let frames = path("film.frames");
+    let frames = path.join("film.frames");
     until(&mut window, "the frames", |_| frames.join("frame-0003.png").is_file());
     let last = image::open(frames.join("frame-0003.png")).unwrap().into_rgba8();
     assert!(last == *apng[2].buffer(), "the same picture");

@@ -391,8 +391,7 @@ fn autosaved(window: &mut Harness<'static, Option<Files>>, text: &str, folder: &
     assert!(!files.wants_scene_recording(), "it was asked for");
     files.autosave_scene(&recording(text, folder, 1));
     let scenes = folder.join("scenes");
-    let kept = || walk(&scenes).iter().any(|path| path.ends_with("scene.toml"));
-    wait(window, |_| kept());
+    wait(window, |_| walk(&scenes).iter().any(|path| path.ends_with("scene.toml")));
     assert!(!window.state_mut().as_mut().unwrap().wants_scene_recording(), "it is kept");
 }
 #[test]
@@ -424,12 +423,11 @@ fn a_scene_left_by_a_crash_is_offered_and_recovered() {
     wait(&mut second, Files::wants_scene_recording);
     let files = second.state_mut().as_mut().unwrap();
     files.autosave_scene(&recording("again", folder.path(), 0));
-    let texts = || -> Vec<String> {
+    wait(&mut second, |_| {
         let paths = walk(&folder.path().join("scenes")).into_iter();
         let scripts = paths.filter(|path| path.ends_with("scene.toml"));
-        scripts.filter_map(|path| std::fs::read_to_string(path).ok()).collect()
-    };
-    wait(&mut second, |_| texts() == ["again"]);
+        scripts.filter_map(|path| std::fs::read_to_string(path).ok()).eq(["again"])
+    });
 }
 
 #[test]

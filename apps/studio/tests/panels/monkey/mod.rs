@@ -365,20 +365,18 @@ type Quanta = [i128; SLOTS + 1];
 
 /// All wet paint of a session: canvas, palette and brushes.
 fn wet(session: &mut PaintingSession) -> Quanta {
-    let mut sums = [0; SLOTS + 1];
-    let mut add = |totals: [u64; SLOTS + 1]| {
-        for (sum, total) in sums.iter_mut().zip(totals) {
-            *sum += i128::from(total);
-        }
-    };
+    let mut all = Vec::new();
     for surface in SurfaceId::ALL {
         if let Some(painting) = session.painting_mut(surface) {
-            add(painting.wet().unwrap().totals());
+            all.push(painting.wet().unwrap().totals());
         }
     }
-    for head in session.kept_heads().unwrap() {
-        if let Some(paint) = head.paint {
-            add(paint.totals());
+    let heads = session.kept_heads().unwrap();
+    all.extend(heads.into_iter().filter_map(|head| Some(head.paint?.totals())));
+    let mut sums = [0; SLOTS + 1];
+    for totals in all {
+        for (sum, total) in sums.iter_mut().zip(totals) {
+            *sum += i128::from(total);
         }
     }
     sums
@@ -471,11 +469,11 @@ fn replay(script: &Path, saved: &Path, library: &PigmentLibrary, opened: Option<
     let (canvas_again, palette_again) = session.documents().unwrap();
     assert!(canvas == canvas_again, "the canvas of the recording differs");
     assert!(Some(&table.palette) == palette_again.as_ref(), "its palette differs");
-    let on_brushes = |totals: Vec<[u64; SLOTS + 1]>| totals.iter().flatten().sum::<u64>();
     let heads = session.kept_heads().unwrap();
-    let again = heads.into_iter().filter_map(|head| Some(head.paint?.totals())).collect();
+    let again = heads.into_iter().filter_map(|head| Some(head.paint?.totals()));
+    let again: u64 = again.flatten().sum();
     let kept = table.brushes.iter().filter_map(|brush| Some(brush.paint.as_ref()?.totals()));
-    assert_eq!(on_brushes(kept.collect()), on_brushes(again), "paint on brushes");
+    assert_eq!(kept.flatten().sum::<u64>(), again, "paint on brushes");
     script.actions.len()
 }
 

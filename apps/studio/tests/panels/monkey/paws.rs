@@ -84,10 +84,15 @@ impl Monkey {
     }
 
     pub(super) fn press(&mut self, modifiers: Modifiers, key: Key) {
-        let event =
-            |pressed| Event::Key { key, physical_key: None, pressed, repeat: false, modifiers };
-        self.window.frame(vec![Event::ModifiersChanged(modifiers), event(true)]);
-        self.window.frame(vec![event(false), Event::ModifiersChanged(Modifiers::NONE)]);
+        let [down, up] = [true, false].map(|pressed| Event::Key {
+            key,
+            physical_key: None,
+            pressed,
+            repeat: false,
+            modifiers,
+        });
+        self.window.frame(vec![Event::ModifiersChanged(modifiers), down]);
+        self.window.frame(vec![up, Event::ModifiersChanged(Modifiers::NONE)]);
         self.window.frame(Vec::new());
     }
 

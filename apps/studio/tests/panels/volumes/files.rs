@@ -374,15 +374,14 @@ fn the_painting_and_its_layers_spectra_and_maps_are_exported() {
         .zip(seen)
         .filter(|(own, seen)| (0..3).any(|channel| own[channel].abs_diff(seen[channel]) > 1));
     assert_eq!(off.count(), 0, "under its light the painting is the picture that is seen");
-    let spectra =
-        |bands| spectral_file(document, &light, &shown, bands, |_| true).unwrap().unwrap();
+    let spectra = spectral_file(document, &light, &shown, SpectralBands::Nodes, |_| true);
     for (kind, name, wanted) in [
         (
             "Layers, OpenRaster",
             "a.ora",
             layers_file(document, &light, |_| true).unwrap().unwrap().bytes,
         ),
-        ("Spectra, OpenEXR of 8 wavelengths", "a.spectral.exr", spectra(SpectralBands::Nodes)),
+        ("Spectra, OpenEXR of 8 wavelengths", "a.spectral.exr", spectra.unwrap().unwrap()),
     ] {
         let path = export_of_painting(&mut window, kind, folder.path(), name);
         assert!(std::fs::read(path).unwrap() == wanted, "{name} differs");

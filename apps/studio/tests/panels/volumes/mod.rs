@@ -60,13 +60,13 @@ fn in_color(window: &Window) -> Pos2 {
     let picture = volumes(window).picture().unwrap();
     let width = picture.width;
     let height = picture.height;
-    let is_colored = |x: usize, y: usize| {
-        let [red, green, blue, _] = picture.pixels[y * width + x];
-        red.max(green).max(blue) - red.min(green).min(blue) > 24
-    };
     let places = (2..height - 2).flat_map(|y| (2..width - 2).map(move |x| (x, y)));
-    let mut deep =
-        places.filter(|&(x, y)| (y - 2..=y + 2).all(|y| (x - 2..=x + 2).all(|x| is_colored(x, y))));
+    let mut deep = places.filter(|&(x, y)| {
+        let around = (y - 2..=y + 2).flat_map(|y| (x - 2..=x + 2).map(move |x| y * width + x));
+        around
+            .map(|at| picture.pixels[at])
+            .all(|[red, green, blue, _]| red.max(green).max(blue) - red.min(green).min(blue) > 24)
+    });
     let (x, y) = deep.next().expect("there is colour");
     at(window, (x as f32 + 0.5) / width as f32, (y as f32 + 0.5) / height as f32)
 }
@@ -166,8 +166,8 @@ fn the_middle_button_and_the_wheel_move_the_camera_also_while_paint_flows() {
     }]);
     window.harness().run_steps(30);
     let near = volumes(&window).orbit.camera();
-    let distance = |camera: graphics::camera::Camera| camera.eye.distance(camera.target);
-    assert!(distance(near) < 0.95 * distance(moved), "the wheel comes nearer");
+    let [near, far] = [near, moved].map(|camera| camera.eye.distance(camera.target));
+    assert!(near < 0.95 * far, "the wheel comes nearer");
     key(&mut window, Key::Home);
     assert_eq!(volumes(&window).orbit.camera(), start.camera(), "Home frames the scene");
     assert_eq!(volumes(&window).state().unwrap().events.len(), 1, "one pour");
@@ -243,8 +243,8 @@ fn a_right_click_tells_what_is_there() {
     // Card and panel show CIELAB, recipe, height and region as the easel's eyedropper does.
     let lab = here.lab.map(|value| format!("{value:.2}")).join(" ");
     let counts = |window: &mut Window| {
-        let mut found = |label: &str| window.harness().query_all_by_label(label).count();
-        [found(&lab), found("Zinc White"), found(&format!("{height:.3} mm")), found("Copy Paint")]
+        [lab.as_str(), "Zinc White", &format!("{height:.3} mm"), "Copy Paint"]
+            .map(|label| window.harness().query_all_by_label(label).count())
     };
     assert!(counts(&mut window).into_iter().all(|count| count > 0), "{:?}", counts(&mut window));
     assert!(window.harness().query_by_label_contains("inside of").is_some());
