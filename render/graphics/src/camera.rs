@@ -179,8 +179,8 @@ impl Framing {
         let half = half_size(bounds);
         let [wide, high] = self.tangents();
         let corners = (0..8).map(|corner| {
-            let sign = |bit: i32| if corner & bit == 0 { 1.0 } else { -1.0 };
-            half * Vec3::new(sign(1), sign(2), sign(4))
+            let signs = [1, 2, 4].map(|bit: i32| if corner & bit == 0 { 1.0_f32 } else { -1.0 });
+            half * Vec3::from(signs)
         });
         let distances = corners.map(|corner| {
             let least = (corner.dot(up).abs() / high).max(corner.dot(right).abs() / wide);

@@ -57,11 +57,7 @@ pub fn is_exr(bytes: &[u8]) -> bool {
 /// # Errors
 /// [`ExrPictureError`] for another file, a damaged one, and one that is too large.
 pub fn linear_picture(name: &str, bytes: &[u8]) -> Result<Picture, ExrPictureError> {
-    let no_picture = |error: exr::error::Error| ExrPictureError::NoPicture {
-        name: name.to_owned(),
-        reason: error.to_string(),
-    };
-    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(no_picture)?;
+    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(no_picture(name))?;
     for header in &meta.headers {
         let Vec2(width, height) = header.layer_size;
         if (width as u64).saturating_mul(height as u64) > MOST_PIXELS {
@@ -81,7 +77,7 @@ pub fn linear_picture(name: &str, bytes: &[u8]) -> Result<Picture, ExrPictureErr
         .first_valid_layer()
         .all_attributes()
         .from_buffered(Cursor::new(bytes))
-        .map_err(no_picture)?;
+        .map_err(no_picture(name))?;
     let mut picture = image.layer_data.channel_data.pixels;
     if let Some(own) = image.attributes.chromaticities.as_ref().and_then(srgb_from) {
         picture.values_mut().par_iter_mut().for_each(|rgb| {
@@ -89,6 +85,10 @@ pub fn linear_picture(name: &str, bytes: &[u8]) -> Result<Picture, ExrPictureErr
         });
     }
     Ok(picture)
+}
+
+fn no_picture(name: &str) -> impl Fn(exr::error::Error) -> ExrPictureError {
+    move |error| ExrPictureError::NoPicture { name: name.to_owned(), reason: error.to_string() }
 }
 
 /// Matrix from linear light of other primaries to linear sRGB. `None` for the primaries of sRGB,

@@ -74,22 +74,10 @@ fn tensor(lab: &Field<[f32; 3]>) -> Field<[f32; 3]> {
             let left = x.saturating_sub(1);
             let right = (x + 1).min(width - 1);
             for channel in 0..3 {
-                // Scharr's weights have the least error in direction (Jaehne 1999).
-                let slope = |a: [(usize, usize); 3], b: [(usize, usize); 3]| {
-                    let side = |at: [(usize, usize); 3]| {
-                        3.0 * (lab[at[0]][channel] + lab[at[2]][channel])
-                            + 10.0 * lab[at[1]][channel]
-                    };
-                    (side(b) - side(a)) / 32.0
-                };
-                let over_x = slope(
-                    [(left, above), (left, y), (left, below)],
-                    [(right, above), (right, y), (right, below)],
-                );
-                let over_y = slope(
-                    [(left, above), (x, above), (right, above)],
-                    [(left, below), (x, below), (right, below)],
-                );
+                let sides = [left, right].map(|x| [(x, above), (x, y), (x, below)]);
+                let over_x = slope(lab, channel, sides);
+                let sides = [above, below].map(|y| [(left, y), (x, y), (right, y)]);
+                let over_y = slope(lab, channel, sides);
                 cell[0] += over_x * over_x;
                 cell[1] += over_x * over_y;
                 cell[2] += over_y * over_y;
@@ -97,6 +85,15 @@ fn tensor(lab: &Field<[f32; 3]>) -> Field<[f32; 3]> {
         }
     });
     tensor
+}
+
+/// Change from one side of a pixel to the other. Scharr's weights have the least error in
+/// direction (Jaehne 1999).
+fn slope(lab: &Field<[f32; 3]>, channel: usize, sides: [[(usize, usize); 3]; 2]) -> f32 {
+    let [from, to] = sides.map(|[first, middle, last]| {
+        3.0 * (lab[first][channel] + lab[last][channel]) + 10.0 * lab[middle][channel]
+    });
+    (to - from) / 32.0
 }
 
 /// Difference of the tensor's eigenvalues over their sum. This is 0 where there is no gradient.

@@ -182,13 +182,12 @@ mod tests {
             let depth = depths(width, height);
             let tiles = DepthTiles::new(&depth);
             for i in 0..400 {
-                let at = |k: usize, size: usize| {
+                let scattered = [(31, width), (17, height), (13, 60), (41, 60)];
+                let [x, y, across, down] = scattered.map(|(k, size): (usize, usize)| {
                     ((i * k) % 97) as f32 / 97.0 * (size as f32 + 40.0) - 20.0
-                };
-                let x = at(31, width);
-                let y = at(17, height);
-                let right = x + at(13, 60).abs();
-                let bottom = y + at(41, 60).abs();
+                });
+                let right = x + across.abs();
+                let bottom = y + down.abs();
                 let found = tiles.farthest([x, right], [y, bottom]);
                 // All pixels that the limits touch, and all pixels of the squares around them.
                 let within = |around: f32| {

@@ -75,12 +75,11 @@ impl Half {
             _ => [c, a, b],
         };
         let middle = (a + b) / 2.0;
-        let half = |corners, number: u64| Self {
+        [([a, middle, c], 8), ([middle, b, c], 9)].map(|(corners, number)| Self {
             corners,
-            seed: self.seed.child(8 + number),
+            seed: self.seed.child(number),
             depth: self.depth + 1,
-        };
-        [half([a, middle, c], 0), half([middle, b, c], 1)]
+        })
     }
 
     pub(super) fn feature(self, halves: &[Self; 2], face: &Face, area: f64) -> Feature {
@@ -220,8 +219,8 @@ impl<'a> InSight<'a> {
             Density::Surface { px_per_unit } => [0.0, margin_px / px_per_unit],
         };
         let [right, up] = projection.axes();
-        let slope = |size: usize| (size as f32 / 2.0 + margin_px) / projection.focal_px;
-        let [across, down] = [slope(projection.width), slope(projection.height)];
+        let [across, down] = [projection.width, projection.height]
+            .map(|size: usize| (size as f32 / 2.0 + margin_px) / projection.focal_px);
         fn side(axis: Vec3, slope: f32, forward: Vec3) -> Vec3 {
             (forward * slope - axis).normalize_or_zero()
         }
@@ -284,13 +283,14 @@ impl Select for InSight<'_> {
             return false;
         }
         let [right, up] = projection.axes();
-        let limits = |slope: f32, size: usize| {
-            let middle = size as f32 / 2.0 + projection.focal_px * slope;
-            let around = projection.focal_px * radius * (1.0 + slope.abs()) / nearest + reach;
+        let slopes = [to.dot(right) / along, -to.dot(up) / along];
+        let sizes = [projection.width, projection.height];
+        let [columns, rows] = [0, 1].map(|axis: usize| {
+            let middle = sizes[axis] as f32 / 2.0 + projection.focal_px * slopes[axis];
+            let wide = 1.0 + slopes[axis].abs();
+            let around = projection.focal_px * radius * wide / nearest + reach;
             [middle - around, middle + around]
-        };
-        let columns = limits(to.dot(right) / along, projection.width);
-        let rows = limits(-to.dot(up) / along, projection.height);
+        });
         projection.depth_at(ahead) > surfaces.farthest(columns, rows)
     }
 }
@@ -497,8 +497,9 @@ mod tests {
                         }
                         _ => margin_px,
                     };
-                    let inside = |at: f32, size: usize| at > -own && at < size as f32 + own;
-                    inside(at.x, size[0]) && inside(at.y, size[1])
+                    [(at.x, size[0]), (at.y, size[1])]
+                        .into_iter()
+                        .all(|(at, size): (f32, usize)| at > -own && at < size as f32 + own)
                 })
             };
             let seen = features.seen(&projection, density, end, margin_px);
@@ -508,19 +509,19 @@ mod tests {
             }
             // The surface is at least 0.7 in front of the eye where it shows.
             let most = end * (projection.focal_px / 0.7).powi(2) * 1.5;
-            let rank = |own: &Feature| {
-                let at = projection.project(own.position)?;
+            let all = features.below(most);
+            let wanted = all.iter().filter(|own| reaches(own.position));
+            let wanted = wanted.filter(|own: &&Feature| {
+                let Some(at) = projection.project(own.position) else { return false };
                 let focal = projection.focal_px / at.distance;
                 let towards = own.normal.dot(camera.eye - own.position).abs();
-                Some(match density {
+                let rank = match density {
                     Density::Screen => own.priority * at.distance / (focal * focal * towards),
                     Density::Facing => own.priority / (focal * focal),
                     Density::Surface { px_per_unit } => own.priority / (px_per_unit * px_per_unit),
-                })
-            };
-            let all = features.below(most);
-            let wanted = all.iter().filter(|own| reaches(own.position));
-            let wanted = wanted.filter(|own| rank(own).is_some_and(|rank| rank < end));
+                };
+                rank < end
+            });
             let wanted: Vec<u64> = wanted.map(|own| own.seed).collect();
             assert_eq!(found, wanted, "{density:?}");
             assert!(wanted.len() > 100, "{density:?}: {}", wanted.len());

@@ -108,13 +108,13 @@ impl Hierarchy {
     /// The area of a patch is at most half of its grandparent's, so the range of f32 bounds the
     /// depth of recursion.
     fn split(&mut self, faces: &mut [Face], first: usize) {
-        let corners = || faces.iter().flat_map(|face| face.corners);
-        let (low, high) = corners()
-            .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), at| {
+        let corners = faces.iter().flat_map(|face| face.corners);
+        let (low, high) =
+            corners.clone().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), at| {
                 (low.min(at), high.max(at))
             });
         let center = (low + high) / 2.0;
-        let radius = corners().map(|at| at.distance_squared(center)).fold(0.0, f32::max).sqrt();
+        let radius = corners.map(|at| at.distance_squared(center)).fold(0.0, f32::max).sqrt();
         let area = faces.iter().map(|face| face.area).sum();
         let index = self.patches.len();
         let all = first..first + faces.len();

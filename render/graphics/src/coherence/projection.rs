@@ -258,16 +258,17 @@ fn noise_before(
     let y = top as usize;
     let right = at.x - 0.5 - left;
     let down = at.y - 0.5 - top;
-    let mix = |field: &Field<f32>| {
-        let row = |y| field[(x, y)] * (1.0 - right) + field[(x + 1, y)] * right;
-        row(y) * (1.0 - down) + row(y + 1) * down
-    };
+    let [surface, noise] = [before.depth, before.noise].map(|field: &Field<f32>| {
+        let [above, below] =
+            [y, y + 1].map(|y| field[(x, y)] * (1.0 - right) + field[(x + 1, y)] * right);
+        above * (1.0 - down) + below * down
+    });
     let corners = [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)];
     let all_seen = corners.iter().all(|&corner| before.depth[corner] < 1.0);
     // Tolerance in depth: about the change over three pixels of a slanted surface.
     let slack = 3.0 * before.projection.depth_scale() / (before.projection.focal_px * at.distance);
-    let same = (mix(before.depth) - at.depth).abs() < slack;
-    (all_seen && same).then(|| mix(before.noise))
+    let same = (surface - at.depth).abs() < slack;
+    (all_seen && same).then_some(noise)
 }
 
 #[cfg(test)]

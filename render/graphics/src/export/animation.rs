@@ -137,15 +137,12 @@ impl<W: Write> Apng<W> {
         let Some(count) = u32::try_from(frames).ok().filter(|&count| count > 0) else {
             return Err(FrameError::Count { wanted: 1, found: frames });
         };
-        let begin = || {
-            let mut encoder = Encoder::new(to, width as u32, height as u32);
-            encoder.set_color(ColorType::Rgb);
-            encoder.set_depth(BitDepth::Eight);
-            encoder.set_source_srgb(SrgbRenderingIntent::RelativeColorimetric);
-            encoder.set_animated(count, 0)?;
-            encoder.write_header()
-        };
-        let writer = begin().map_err(|error| encoder_failed("APNG", &error))?;
+        let mut encoder = Encoder::new(to, width as u32, height as u32);
+        encoder.set_color(ColorType::Rgb);
+        encoder.set_depth(BitDepth::Eight);
+        encoder.set_source_srgb(SrgbRenderingIntent::RelativeColorimetric);
+        let writer = encoder.set_animated(count, 0).and_then(|()| encoder.write_header());
+        let writer = writer.map_err(|error| encoder_failed("APNG", &error))?;
         let size = [width, height];
         Ok(Self { writer, rate, size, wanted: frames, count: 0, elapsed: 0, chunks: 0 })
     }

@@ -170,12 +170,14 @@ mod tests {
             .map(|layer| layer.attributes.layer_name.as_ref().unwrap().to_string())
             .collect();
         assert_eq!(names, ["color", "count"]);
-        let channel = |part: usize, index: usize| {
-            let channel = &image.layer_data[part].channel_data.list[index];
-            (channel.name.to_string(), channel.sample_data.values_as_f32().next().unwrap())
-        };
-        assert_eq!([channel(0, 0), channel(0, 1)], [("B".into(), 2.0), ("R".into(), 0.25)]);
-        assert_eq!(channel(1, 0), ("sky".into(), 300.0));
+        let channels = image.layer_data.iter().flat_map(|layer| layer.channel_data.list.iter());
+        let found: Vec<(String, f32)> = channels
+            .map(|channel| {
+                (channel.name.to_string(), channel.sample_data.values_as_f32().next().unwrap())
+            })
+            .collect();
+        let wanted = [("B", 2.0), ("R", 0.25), ("sky", 300.0)];
+        assert_eq!(found, wanted.map(|(name, first)| (name.to_owned(), first)));
         let twice = vec![("a".to_owned(), vec![]), ("a".to_owned(), vec![])];
         assert!(exr_parts((3, 2), 0.5, twice).is_err());
     }

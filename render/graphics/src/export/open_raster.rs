@@ -258,10 +258,13 @@ mod tests {
         assert!(upper < lower, "the uppermost comes first: {text}");
         assert!(text.contains("w=\"400\" h=\"2\" xres=\"254\" yres=\"254\""), "{text}");
         assert!(text.contains("Red &amp; &quot;blue&quot; &lt;1&gt;"), "{text}");
-        let shown = |name| text[text.find(name).unwrap()..].find("visibility=\"visible\"");
-        let hidden = |name| text[text.find(name).unwrap()..].find("visibility=\"hidden\"");
-        assert!(hidden("Red &amp;") < shown("Red &amp;"), "the second layer is hidden: {text}");
-        assert!(shown("Ground").is_some() && hidden("Ground").is_none(), "{text}");
+        let [[shown, hidden], [shown_ground, hidden_ground]] =
+            ["Red &amp;", "Ground"].map(|name| {
+                let layer = &text[text.find(name).unwrap()..];
+                ["visible", "hidden"].map(|own| layer.find(&format!("visibility=\"{own}\"")))
+            });
+        assert!(hidden < shown, "the second layer is hidden: {text}");
+        assert!(shown_ground.is_some() && hidden_ground.is_none(), "{text}");
     }
 
     #[test]

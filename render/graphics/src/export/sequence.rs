@@ -103,9 +103,9 @@ impl Sequence {
     /// written.
     pub fn write_frame(&mut self, index: usize, frame: &Frame) -> Result<(), SequenceError> {
         let path = self.path(index);
-        let at_path = |source| SequenceError::Frame { path: path.clone(), source };
-        self.check_size(frame).map_err(at_path)?;
-        write_whole(&path, &frame_png(frame).map_err(at_path)?)?;
+        let png = self.check_size(frame).and_then(|()| frame_png(frame));
+        let png = png.map_err(|source| SequenceError::Frame { path: path.clone(), source })?;
+        write_whole(&path, &png)?;
         self.remaining.retain(|&other| other != index);
         Ok(())
     }

@@ -131,27 +131,29 @@ pub(super) fn bind_group_layout(
     parameter_bytes: usize,
     read_only: impl Iterator<Item = bool>,
 ) -> wgpu::BindGroupLayout {
-    let entry = |binding: u32, ty, has_dynamic_offset, bytes| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: match ty {
-            // Vertex shaders of the base profile do not write buffers.
-            wgpu::BufferBindingType::Storage { read_only: false } => {
-                visibility - wgpu::ShaderStages::VERTEX
-            }
-            _ => visibility,
-        },
-        ty: wgpu::BindingType::Buffer {
-            ty,
-            has_dynamic_offset,
-            min_binding_size: NonZero::new(bytes),
-        },
-        count: None,
-    };
-    let parameters = entry(0, wgpu::BufferBindingType::Uniform, true, parameter_bytes as u64);
-    let storage = read_only.zip(1..).map(|(read_only, binding)| {
-        entry(binding, wgpu::BufferBindingType::Storage { read_only }, false, 0)
+    let parameters = (wgpu::BufferBindingType::Uniform, true, parameter_bytes as u64);
+    let storage =
+        read_only.map(|read_only| (wgpu::BufferBindingType::Storage { read_only }, false, 0));
+    let bindings = std::iter::once(parameters).chain(storage).zip(0..);
+    let entries = bindings.map(|((ty, has_dynamic_offset, bytes), binding)| {
+        wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: match ty {
+                // Vertex shaders of the base profile do not write buffers.
+                wgpu::BufferBindingType::Storage { read_only: false } => {
+                    visibility - wgpu::ShaderStages::VERTEX
+                }
+                _ => visibility,
+            },
+            ty: wgpu::BindingType::Buffer {
+                ty,
+                has_dynamic_offset,
+                min_binding_size: NonZero::new(bytes),
+            },
+            count: None,
+        }
     });
-    let entries: Vec<_> = std::iter::once(parameters).chain(storage).collect();
+    let entries: Vec<_> = entries.collect();
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some(label),
         entries: &entries,
@@ -337,8 +339,9 @@ impl StencilPipeline {
         let less = wgpu::CompareFunction::Less;
         let scene = depth_state(true, less, wgpu::StencilState::default());
         let faces = depth_state(false, less, counting);
-        let pipeline = |state| pipeline(device, shader.name, &layout, &module, state, None);
-        Self { scene: pipeline(scene), faces: pipeline(faces), layout }
+        let [scene, faces] = [scene, faces]
+            .map(|state| pipeline(device, shader.name, &layout, &module, state, None));
+        Self { scene, faces, layout }
     }
 }
 

@@ -44,7 +44,11 @@ impl Device {
         let scopes = filters.map(|filter| self.inner.push_error_scope(filter));
         let width = width as u32;
         let height = height as u32;
-        let texture = |label, format, usage| {
+        let all = [
+            ("texels of a target", TEXEL, wgpu::TextureUsages::COPY_SRC),
+            ("depth of a target", DEPTH, wgpu::TextureUsages::empty()),
+        ];
+        let [texels, depth] = all.map(|(label, format, usage)| {
             self.inner.create_texture(&wgpu::TextureDescriptor {
                 label: Some(label),
                 size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
@@ -55,9 +59,7 @@ impl Device {
                 usage: wgpu::TextureUsages::RENDER_ATTACHMENT | usage,
                 view_formats: &[],
             })
-        };
-        let texels = texture("texels of a target", TEXEL, wgpu::TextureUsages::COPY_SRC);
-        let depth = texture("depth of a target", DEPTH, wgpu::TextureUsages::empty());
+        });
         let [view, depth] = [&texels, &depth].map(|it| it.create_view(&Default::default()));
         for scope in scopes.into_iter().rev() {
             match pollster::block_on(scope.pop()) {
@@ -133,17 +135,17 @@ impl Device {
         width: usize,
         height: usize,
     ) -> Result<StencilTarget, DeviceError> {
-        let what = || format!("a stencil of {width} x {height} pixels");
+        let what = format!("a stencil of {width} x {height} pixels");
         let most = self.inner.limits().max_texture_dimension_2d as usize;
         if width.max(height) > most || width.min(height) == 0 {
             let reason = format!("its sides may be of 1 to {most}");
-            return Err(DeviceError::Refused { what: what(), reason });
+            return Err(DeviceError::Refused { what, reason });
         }
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC;
         let features = self.adapter().inner.get_texture_format_features(DEPTH_STENCIL);
         if !features.allowed_usages.contains(usage) {
             let reason = "this adapter has no stencil that can be read back".to_owned();
-            return Err(DeviceError::Refused { what: what(), reason });
+            return Err(DeviceError::Refused { what, reason });
         }
         let width = width as u32;
         let height = height as u32;
@@ -170,8 +172,7 @@ impl Device {
                     return Err(DeviceError::OutOfMemory { what: "a stencil", bytes });
                 }
                 Some(error) => {
-                    let reason = one_line(&error);
-                    return Err(DeviceError::Refused { what: what(), reason });
+                    return Err(DeviceError::Refused { what, reason: one_line(&error) });
                 }
             }
         }

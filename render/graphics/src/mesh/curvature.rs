@@ -238,10 +238,9 @@ fn mixed_areas(at: [DVec3; 3]) -> [f64; 3] {
     }
     [0, 1, 2].map(|i| {
         let [next, last] = [(i + 1) % 3, (i + 2) % 3];
-        let toward = |from: usize, opposite: usize| {
-            at[from].distance_squared(at[i]) * dots[opposite] / twice
-        };
-        (toward(next, last) + toward(last, next)) / 8.0
+        let from_next = at[next].distance_squared(at[i]) * dots[last] / twice;
+        let from_last = at[last].distance_squared(at[i]) * dots[next] / twice;
+        (from_next + from_last) / 8.0
     })
 }
 
@@ -551,12 +550,12 @@ mod tests {
     #[test]
     fn smoothing_calms_the_curvature_of_a_rough_model() {
         let mesh = rough(&Mesh::sphere(2000), 0.01);
-        let spread = |rounds| {
+        let [calmed, rough] = [3, 0].map(|rounds| {
             let curvatures = mesh.curvatures(rounds);
             let squares = curvatures.iter().map(|own| (own.greatest - own.least).powi(2));
             (squares.sum::<f32>() / curvatures.len() as f32).sqrt()
-        };
-        assert!(spread(3) < 0.5 * spread(0), "{} of {}", spread(3), spread(0));
+        });
+        assert!(calmed < 0.5 * rough, "{calmed} of {rough}");
     }
 
     #[test]
@@ -617,11 +616,11 @@ mod tests {
     fn a_triangle_on_a_saddle_has_the_tensor_of_the_saddle() {
         // Height z = (p x^2 + 2 q x y + r y^2) / 2: the normal's change is minus the tensor.
         let [p, q, r] = [0.8, -0.3, -0.5];
-        let normal = |x: f64, y: f64| DVec3::new(-(p * x + q * y), -(q * x + r * y), 1.0);
         let places = [[-1e-4, -1e-4], [2e-4, 0.0], [0.0, 1e-4]];
         let positions =
             places.map(|[x, y]| DVec3::new(x, y, 0.5 * (p * x * x + 2.0 * q * x * y + r * y * y)));
-        let normals = places.map(|[x, y]| normal(x, y).normalize());
+        let normals =
+            places.map(|[x, y]| DVec3::new(-(p * x + q * y), -(q * x + r * y), 1.0).normalize());
         let face = FaceShape::new(positions, normals).unwrap();
         let plane = TangentPlane { normal: DVec3::Z, right: DVec3::X, up: DVec3::Y };
         let found = face.tensor_in(&plane);

@@ -363,10 +363,11 @@ impl Mesh {
             open[part_of[edge[0][0] as usize] as usize] |= 2 * onwards != edge.len();
         }
         let mut volumes = vec![0.0; parts];
-        let place = |corner: u32| DVec3::from(self.positions[corner as usize].map(f64::from));
-        let first = self.positions.first().map_or(DVec3::ZERO, |_| place(0));
+        let first = self.positions.first().map_or(DVec3::ZERO, |at| DVec3::from(at.map(f64::from)));
         for (triangle, places) in self.triangles.iter().zip(&triangles) {
-            let [a, b, c] = triangle.corners.map(|corner| place(corner) - first);
+            let [a, b, c] = triangle
+                .corners
+                .map(|corner| DVec3::from(self.positions[corner as usize].map(f64::from)) - first);
             volumes[part_of[places[0] as usize] as usize] += a.cross(b).dot(c);
         }
         triangles

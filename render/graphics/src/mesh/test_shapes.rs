@@ -107,10 +107,10 @@ pub(super) fn rough(mesh: &Mesh, height: f32) -> Mesh {
 }
 
 pub(super) fn turned(mesh: &Mesh, turn: Quat) -> Mesh {
-    let all = |vectors: &[[f32; 3]]| {
+    let [positions, normals] = [&mesh.positions, &mesh.normals].map(|vectors| {
         vectors.iter().map(|&vector| (turn * Vec3::from(vector)).to_array()).collect()
-    };
-    Mesh { positions: all(&mesh.positions), normals: all(&mesh.normals), ..mesh.clone() }
+    });
+    Mesh { positions, normals, ..mesh.clone() }
 }
 
 /// Angle between two unit directions of arbitrary sign, in degrees.

@@ -106,8 +106,9 @@ pub(super) fn step<S: Simd>(
     if count == 0.0 {
         return None;
     }
-    let mean = |sum| simd.reduce_sum_f32s(sum) / count;
-    Some(Mode { x: mean(sum_x), y: mean(sum_y), color: [mean(sum_l), mean(sum_u), mean(sum_v)] })
+    let [x, y, l, u, v] =
+        [sum_x, sum_y, sum_l, sum_u, sum_v].map(|sum| simd.reduce_sum_f32s(sum) / count);
+    Some(Mode { x, y, color: [l, u, v] })
 }
 
 /// A path joins an earlier one if their colours differ by at most this, in range radii.
@@ -331,8 +332,9 @@ mod tests {
         let mut picture = Field::filled(150, 90, [1.0; 4]);
         for y in 0..90 {
             for x in 0..150 {
-                let soft = |edge: f32| ((x as f32 - edge) / 3.0).clamp(0.0, 1.0);
-                let base = 0.3 + 0.25 * soft(50.0) + 0.2 * soft(105.0) + 0.001 * y as f32;
+                let [first, second] =
+                    [50.0, 105.0].map(|edge: f32| ((x as f32 - edge) / 3.0).clamp(0.0, 1.0));
+                let base = 0.3 + 0.25 * first + 0.2 * second + 0.001 * y as f32;
                 let pixel = &mut picture[(x, y)];
                 for (channel, value) in pixel.iter_mut().take(3).enumerate() {
                     let noise = random.random_range(-0.05..0.05f32);
@@ -356,10 +358,11 @@ mod tests {
                 squared([0, 1, 2].map(|i| a.color[i] - b.color[i])).sqrt() / BANDWIDTH.range
             })
             .collect();
-        let share =
-            |limit: f32| off.iter().filter(|&&off| off > limit).count() as f32 / off.len() as f32;
-        assert!(share(0.5) < 0.01, "{}", share(0.5));
-        assert!(share(0.1) < 0.05, "{}", share(0.1));
+        for (limit, most) in [(0.5, 0.01), (0.1, 0.05)] {
+            let above = off.iter().filter(|&&off| off > limit).count();
+            let share = above as f32 / off.len() as f32;
+            assert!(share < most, "{share}");
+        }
         assert!(met != walked, "no path met another");
     }
 

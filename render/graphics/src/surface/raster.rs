@@ -354,8 +354,8 @@ pub(super) fn cover<P>(
     let last_row = first_row + pixels.len() / width;
     let rows = all_rows.start.max(first_row)..all_rows.end.min(last_row);
     let columns = shape.columns(width);
-    let edge = |from, to| Edge::new(from, to, columns.start, rows.start);
-    let mut edges = [edge(b, c), edge(c, a), edge(a, b)];
+    let mut edges =
+        [(b, c), (c, a), (a, b)].map(|(from, to)| Edge::new(from, to, columns.start, rows.start));
     let per_area = 1.0 / shape.twice_area as f32;
     for row in rows {
         let first = (row - first_row) * width + columns.start;
@@ -389,11 +389,11 @@ pub(super) fn fill(shape: &Shape, first_row: usize, width: usize, pixels: &mut [
         if depth < pixel.depth {
             let [first, second, third] = shape.inverse_w(second, third);
             let whole = 1.0 / (first + second + third);
-            let at = |i: usize| {
+            let [second, third] = [0, 1].map(|i: usize| {
                 let [by_a, by_b, by_c] = shape.weights.map(|weights| weights[i]);
                 (first * by_a + second * by_b + third * by_c) * whole
-            };
-            *pixel = Fragment { triangle: shape.triangle, second: at(0), third: at(1), depth };
+            });
+            *pixel = Fragment { triangle: shape.triangle, second, third, depth };
         }
     });
 }

@@ -123,15 +123,16 @@ impl<'a> SurfacePoint<'a> {
         let y = place.y * height as f32 - 0.5;
         let columns = [x, x + 1.0].map(|x| wrapped(x, width));
         let rows = [y, y + 1.0].map(|y| wrapped(y, height));
-        let texel = |row: usize, column: usize| {
-            let at = self.material.first + rows[row] * width + columns[column];
-            let [r, g, b, _] = self.texels[at as usize].to_le_bytes();
-            Vec3::new(f32::from(r), f32::from(g), f32::from(b))
-        };
         let right = x - x.floor();
         let down = y - y.floor();
-        let above = texel(0, 0) + (texel(0, 1) - texel(0, 0)) * right;
-        let below = texel(1, 0) + (texel(1, 1) - texel(1, 0)) * right;
+        let [above, below] = rows.map(|row| {
+            let [start, end] = columns.map(|column| {
+                let at = self.material.first + row * width + column;
+                let [r, g, b, _] = self.texels[at as usize].to_le_bytes();
+                Vec3::new(f32::from(r), f32::from(g), f32::from(b))
+            });
+            start + (end - start) * right
+        });
         (above + (below - above) * down) / 255.0
     }
 }

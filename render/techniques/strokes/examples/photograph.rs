@@ -28,20 +28,22 @@ struct Ball {
 
 /// The still life: a plum of one ball, two pears of a row of balls each, with stalks.
 fn balls() -> Vec<Ball> {
-    let ball = |middle, radius, color, shine| Ball { middle, radius, color, shine };
-    let mut balls = vec![ball([1.55, 0.52, -0.35], 0.52, [0.16, 0.035, 0.09], 0.3)];
+    let plum = [0.16, 0.035, 0.09];
+    let mut balls =
+        vec![Ball { middle: [1.55, 0.52, -0.35], radius: 0.52, color: plum, shine: 0.3 }];
     for (x, z, lean, color) in
         [(-0.85, 0.25, -0.18, [0.62, 0.52, 0.09]), (0.35, 0.75, 0.12, [0.66, 0.3, 0.07])]
     {
         for step in 0..24 {
             let t = f64::from(step) / 23.0;
             let radius = 0.78 - 0.48 * t * t * (3.0 - 2.0 * t);
-            balls.push(ball([x + lean * t, 0.78 + 1.2 * t, z], radius, color, 0.12));
+            let middle = [x + lean * t, 0.78 + 1.2 * t, z];
+            balls.push(Ball { middle, radius, color, shine: 0.12 });
         }
         for step in 0..10 {
             let t = f64::from(step) / 9.0;
-            let stalk = [x + lean * (1.0 + 0.6 * t) + 0.06 * t, 2.2 + 0.35 * t, z];
-            balls.push(ball(stalk, 0.045, [0.09, 0.05, 0.02], 0.0));
+            let middle = [x + lean * (1.0 + 0.6 * t) + 0.06 * t, 2.2 + 0.35 * t, z];
+            balls.push(Ball { middle, radius: 0.045, color: [0.09, 0.05, 0.02], shine: 0.0 });
         }
     }
     balls

@@ -125,11 +125,13 @@ impl<'a> Trial<'a> {
             self.engine.apply_contacts(self.brush, &motion, &[contact])?;
         }
         let wet = self.engine.wet()?;
-        let span = |middle: f64, reach: f64| (middle - reach) as usize..(middle + reach) as usize;
+        let along = (size * (1.5 + LENGTH / 2.0), LENGTH * size / 4.0);
+        let [rows, columns] = [(middle, (COVER * size / 2.0).max(0.5)), along]
+            .map(|(middle, reach)| (middle - reach) as usize..(middle + reach) as usize);
         let mut quanta = 0;
         let mut cells = 0;
-        for y in span(middle, (COVER * size / 2.0).max(0.5)) {
-            for x in span(size * (1.5 + LENGTH / 2.0), LENGTH * size / 4.0) {
+        for y in rows {
+            for x in columns.clone() {
                 quanta += u64::from(wet.vehicle[(x, y)]);
                 cells += 1;
             }

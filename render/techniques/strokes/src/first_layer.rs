@@ -89,10 +89,10 @@ mod tests {
     #[test]
     fn the_layer_shows_the_colors_of_the_photograph() {
         let colors = [[150_u8, 60, 40], [60, 70, 130], [190, 170, 90], [120, 120, 120]];
-        let linear = |color: [u8; 3]| {
+        fn linear(color: [u8; 3]) -> [f32; 4] {
             let [r, g, b] = Rgb(color.map(|byte| f64::from(byte) / 255.0)).linear().0;
             [r as f32, g as f32, b as f32, 1.0]
-        };
+        }
         let pixels = (0..800).map(|index| linear(colors[index % 40 / 10]));
         let seen = Field::from_values(40, 20, pixels.collect());
         let png = png8(&seen, 0.5).unwrap();

@@ -214,12 +214,13 @@ fn cover(difference: &mut Field<f32>, path: &[[f64; 2]], size: f64) {
     let apart = path.windows(2).map(|ends| point_distance(ends[0], ends[1])).fold(1e-9, f64::max);
     let end = ((size / 4.0 / apart) as usize).min((path.len() - 1) / 2);
     for &[x, y] in &path[end..path.len() - end] {
-        let span = |middle: f64, cells: usize| {
+        let middles = [(y, difference.height()), (x, difference.width())];
+        let [rows, columns] = middles.map(|(middle, cells): (f64, usize)| {
             let from = (middle - radius).max(0.0) as usize;
             from..((middle + radius).ceil().max(0.0) as usize).min(cells)
-        };
-        for row in span(y, difference.height()) {
-            for column in span(x, difference.width()) {
+        });
+        for row in rows {
+            for column in columns.clone() {
                 let place = [column as f64 + 0.5, row as f64 + 0.5];
                 if point_distance(place, [x, y]) <= radius.max(0.5) {
                     difference[(column, row)] = 0.0;
@@ -348,7 +349,7 @@ fn leave_smooth_alone(difference: &mut Field<f32>, target_lab: &Field<[f32; 3]>,
     let width = target_lab.width();
     let height = target_lab.height();
     let reach = (size / 2.0).ceil() as usize;
-    let change = |at: usize| {
+    let changes = (0..width * height).into_par_iter().map(|at: usize| {
         let x = at % width;
         let y = at / width;
         let left = x.saturating_sub(reach);
@@ -358,9 +359,8 @@ fn leave_smooth_alone(difference: &mut Field<f32>, target_lab: &Field<[f32; 3]>,
         let across = distance(target_lab[(left, y)], target_lab[(right, y)]);
         let down = distance(target_lab[(x, above)], target_lab[(x, below)]);
         [across.max(down)]
-    };
-    let changes = (0..width * height).into_par_iter().map(change).collect();
-    let changes = blurred(&Field::from_values(width, height, changes), size / 4.0);
+    });
+    let changes = blurred(&Field::from_values(width, height, changes.collect()), size / 4.0);
     for (difference, [change]) in difference.values_mut().iter_mut().zip(changes.values()) {
         *difference *= SMOOTH + (1.0 - SMOOTH) * (change / DETAIL).min(1.0);
     }
@@ -407,9 +407,8 @@ fn half_path(
     mut heading: [f64; 2],
 ) -> Vec<[f64; 2]> {
     let step = (input.size / 4.0).max(0.5);
-    let steps = |sizes: f64| (sizes * input.size / 2.0 / step).round() as usize;
-    let least = steps(plan.shortest).max(1);
-    let most = steps(plan.longest).max(1);
+    let [least, most] = [plan.shortest, plan.longest]
+        .map(|sizes: f64| ((sizes * input.size / 2.0 / step).round() as usize).max(1));
     let mut painted = 0.0;
     let mut points = Vec::new();
     let mut place = start;

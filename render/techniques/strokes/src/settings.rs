@@ -274,11 +274,11 @@ mod tests {
 
     #[test]
     fn numbers_of_a_plan_are_refused_by_their_rows() {
-        let with = |change: fn(&mut Plan)| {
+        fn with(change: fn(&mut Plan)) -> String {
             let mut plan = Plan::default();
             change(&mut plan);
             plan.check().unwrap_err().to_string()
-        };
+        }
         let wide = with(|plan| plan.speed = 1e7);
         assert_eq!(wide, "speed is 0.001 to 1000000 brush sizes a second, found `10000000`");
         assert_eq!(with(|plan| plan.bending = f64::NAN), "bending is 0 to 1, found `NaN`");

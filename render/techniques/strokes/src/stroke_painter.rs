@@ -214,15 +214,15 @@ fn separation(
         ground: &ground,
         scattering_per_mm: Medium::of(library).scattering_per_mm,
     };
-    let film = |materials: FilmMaterials<'_>| PaintFilm::at_nodes(materials, &light.quadrature);
+    let nodes = &light.quadrature;
     let slots = if settings.palette.is_empty() {
         let toned = black_compensated(seen, library.saunderson.floor() as f32);
-        choose_palette(&toned, materials, film, &table)?.slots
+        choose_palette(&toned, materials, |own| PaintFilm::at_nodes(own, nodes), &table)?.slots
     } else {
         palette_slots(&settings.palette, library)?
     };
-    let separation = Separation::new(film(FilmMaterials { slots: &slots, ..materials }), &table)?;
-    Ok((separation, slots))
+    let film = PaintFilm::at_nodes(FilmMaterials { slots: &slots, ..materials }, nodes);
+    Ok((Separation::new(film, &table)?, slots))
 }
 
 /// A photograph cannot be painted in strokes.

@@ -178,11 +178,13 @@ fn across(faces: &[[u32; 3]]) -> Vec<[u32; 3]> {
         .flat_map(|(&[a, b, c], face)| [(a, b, face), (b, c, face), (c, a, face)]);
     let mut edges: Vec<(u32, u32, u32)> = directed.collect();
     edges.sort_unstable();
-    let face_along = |a: u32, b: u32| {
-        let found = edges.partition_point(|&(from, to, _)| (from, to) < (a, b));
-        edges[found].2
-    };
-    faces.iter().map(|&[a, b, c]| [face_along(b, a), face_along(c, b), face_along(a, c)]).collect()
+    let beyond = faces.iter().map(|&[a, b, c]| {
+        [(b, a), (c, b), (a, c)].map(|side| {
+            let found = edges.partition_point(|&(from, to, _)| (from, to) < side);
+            edges[found].2
+        })
+    });
+    beyond.collect()
 }
 
 /// The square of a cube around the centre through which a ray goes.
@@ -244,8 +246,9 @@ mod tests {
 
     fn points(volume: &Volume, count: usize, seed: u64) -> Vec<Vec3> {
         let random = &mut ChaCha8Rng::seed_from_u64(seed);
-        let mut axis = || random.random_range(-1.6_f32..1.6) * volume.radius;
-        (0..count).map(|_| volume.center + Vec3::new(axis(), axis(), axis())).collect()
+        let away = (0..count)
+            .map(|_| [(); 3].map(|()| random.random_range(-1.6_f32..1.6) * volume.radius));
+        away.map(|away| volume.center + Vec3::from(away)).collect()
     }
 
     #[test]
@@ -281,9 +284,10 @@ mod tests {
             for at in points(&volume, 500, 4) {
                 let Exit { face, distance } = inside.exit(at);
                 let along = (at.as_dvec3() - inside.center).normalize();
-                let winding =
-                    |times: f64| winding_number(&volume, inside.center + along * distance * times);
-                assert!(winding(0.9999) > 0.5 && winding(1.0001) < 0.5, "{at} {distance}");
+                let [before, behind] = [0.9999, 1.0001].map(|times: f64| {
+                    winding_number(&volume, inside.center + along * distance * times)
+                });
+                assert!(before > 0.5 && behind < 0.5, "{at} {distance}");
                 let sides = inside.sides(face, along);
                 assert!(sides.iter().all(|&side| side >= 0.0), "{sides:?}");
             }
@@ -299,8 +303,9 @@ mod tests {
         assert!(!inside.holds(Vec3::new(f32::NAN, 0.0, 0.0)));
         assert!(!inside.holds(Vec3::splat(f32::INFINITY)));
         for at in volume.vertices() {
-            let toward = |times: f32| Vec3::ONE + (Vec3::from(at) - Vec3::ONE) * times;
-            assert!(inside.holds(toward(0.9999)) && !inside.holds(toward(1.0001)), "{at:?}");
+            let held = [0.9999, 1.0001]
+                .map(|times: f32| inside.holds(Vec3::ONE + (Vec3::from(at) - Vec3::ONE) * times));
+            assert_eq!(held, [true, false], "{at:?}");
         }
     }
 

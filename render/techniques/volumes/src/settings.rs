@@ -165,8 +165,9 @@ fn shells_and_tints_fit(settings: &Settings, base: &KeyPath) -> Checked {
 
 /// Numbers with the digits that they have in a file.
 fn as_written(list: &[f32]) -> Vec<f64> {
-    let number = |number: &f32| number.to_string().parse().unwrap_or_else(|_| f64::from(*number));
-    list.iter().map(number).collect()
+    list.iter()
+        .map(|number: &f32| number.to_string().parse().unwrap_or_else(|_| f64::from(*number)))
+        .collect()
 }
 
 /// Even steps from 0 to 1 for `shells` shells: the tint in no shell, in one, and so on.
@@ -178,10 +179,10 @@ pub fn even_tints(shells: usize) -> Vec<f64> {
 /// Checks shells and their tints. If there are no tints, they go in even steps. `table` is the path
 /// of the table that holds both.
 pub(crate) fn check_shells(table: &KeyPath, shells: &[f64], tints: &[f64]) -> Checked {
-    let list = |numbers: &[f64]| {
+    fn list(numbers: &[f64]) -> String {
         let numbers: Vec<String> = numbers.iter().map(f64::to_string).collect();
         format!("[{}]", numbers.join(", "))
-    };
+    }
     let key = table.key("shells");
     if !(1..=MOST_SHELLS).contains(&shells.len()) {
         let wanted = format!("1 to {MOST_SHELLS} sizes");
@@ -367,9 +368,9 @@ mod tests {
 
     #[test]
     fn tints_rise_and_shells_fall() {
-        let check = |shells: &[f64], tints: &[f64]| {
+        fn check(shells: &[f64], tints: &[f64]) -> Result<(), String> {
             check_shells(&KeyPath::of("drawing"), shells, tints).map_err(|fault| fault.to_string())
-        };
+        }
         assert_eq!(even_tints(4), [0.0, 0.25, 0.5, 0.75, 1.0]);
         assert_eq!(check(&[1.0, 0.9], &[]), Ok(()));
         assert_eq!(check(&[1.0, 0.9], &[0.0, 1.0, 1.0]), Ok(()));

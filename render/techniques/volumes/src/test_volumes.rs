@@ -19,19 +19,15 @@ use crate::volume::Volume;
 pub(crate) fn bumpy(center: Vec3, radius: f32, detail: u8, seed: u64) -> Volume {
     let random = &mut ChaCha8Rng::seed_from_u64(seed);
     let mut volume = Volume::ball(center, radius, detail, seed);
-    let mut axis = || random.random_range(-1.0_f64..1.0);
-    let waves: [DVec3; 3] = std::array::from_fn(|_| DVec3::new(axis(), axis(), axis()));
+    let waves = [(); 3].map(|()| DVec3::from([(); 3].map(|()| random.random_range(-1.0_f64..1.0))));
     let shift = 0.5 / f64::from(1 << detail);
-    let sway = |along: DVec3| {
-        let phases = waves.map(|wave| wave.dot(along) * 5.0);
-        let [a, b, c] = phases.map(f64::sin);
-        (1.0 + 0.11 * (a + b + c), DVec3::new(b, c, a) * 0.3 * shift)
-    };
     let [x, y, z] = &mut volume.particles.places;
     for i in 0..x.len() {
         let place = Vec3::new(x[i], y[i], z[i]).as_dvec3();
         let along = place.normalize();
-        let (times, aside) = sway(along);
+        let [a, b, c] = waves.map(|wave| (wave.dot(along) * 5.0).sin());
+        let times = 1.0 + 0.11 * (a + b + c);
+        let aside = DVec3::new(b, c, a) * 0.3 * shift;
         let moved = ((along + aside) * place.length() * times).as_vec3();
         [x[i], y[i], z[i]] = moved.to_array();
     }
@@ -47,13 +43,13 @@ pub(crate) fn bumpy(center: Vec3, radius: f32, detail: u8, seed: u64) -> Volume 
 /// A plane from (0, 0, 0) to (4, 4, 0) that faces along z, of `2 * count * count` triangles.
 pub(crate) fn plane(count: usize) -> Mesh {
     let side = count + 1;
-    let at = |i: usize| [i % side, i / side].map(|at| 4.0 * at as f32 / count as f32);
-    let positions: Vec<[f32; 3]> = (0..side * side).map(|i| [at(i)[0], at(i)[1], 0.0]).collect();
+    let places = (0..side * side)
+        .map(|i: usize| [i % side, i / side].map(|at| 4.0 * at as f32 / count as f32));
     let squares = (0..count * count).map(|i| (i % count + i / count * side) as u32);
     let right = 1;
     let up = side as u32;
     Mesh {
-        texture_coordinates: (0..side * side).map(|i| at(i).map(|value| value / 4.0)).collect(),
+        texture_coordinates: places.clone().map(|at| at.map(|value| value / 4.0)).collect(),
         colors: vec![[1.0; 3]; side * side],
         normals: vec![[0.0, 0.0, 1.0]; side * side],
         triangles: squares
@@ -63,7 +59,7 @@ pub(crate) fn plane(count: usize) -> Mesh {
             })
             .collect(),
         materials: vec![Material::plain([1.0; 3])],
-        positions,
+        positions: places.map(|[x, y]| [x, y, 0.0]).collect(),
     }
 }
 
@@ -92,8 +88,9 @@ pub(crate) fn bare(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Mesh {
 /// A sheet of `squares` by `squares` squares. `at(u, v)` gives the places for u and v in 0..1.
 pub(crate) fn sheet(squares: u32, at: impl Fn(f32, f32) -> [f32; 3]) -> Mesh {
     let row = squares + 1;
-    let share = |i: u32| i as f32 / squares as f32;
-    let points: Vec<_> = (0..row * row).map(|i| at(share(i % row), share(i / row))).collect();
+    let shares =
+        (0..row * row).map(|i: u32| [i % row, i / row].map(|steps| steps as f32 / squares as f32));
+    let points: Vec<_> = shares.map(|[u, v]| at(u, v)).collect();
     let firsts = (0..squares * squares).map(|i| i / squares * row + i % squares);
     let triangles: Vec<[u32; 3]> =
         firsts.flat_map(|a| [[a, a + row + 1, a + 1], [a, a + row, a + row + 1]]).collect();

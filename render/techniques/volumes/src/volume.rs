@@ -177,12 +177,13 @@ fn icosahedron() -> (Vec<DVec3>, Vec<[u32; 3]>) {
         vertices.extend(turned.map(DVec3::normalize));
     }
     // All edges of the icosahedron are equally long. Three vertices joined by edges make a face.
-    let joined = |a: usize, b: usize| vertices[a].distance(vertices[b]) < 1.1;
     let mut faces = Vec::with_capacity(20);
     for a in 0..12 {
         for b in a + 1..12 {
             for c in b + 1..12 {
-                if joined(a, b) && joined(b, c) && joined(c, a) {
+                let joined = [(a, b), (b, c), (c, a)]
+                    .map(|(a, b): (usize, usize)| vertices[a].distance(vertices[b]) < 1.1);
+                if joined == [true; 3] {
                     let volume = vertices[a].cross(vertices[b]).dot(vertices[c]);
                     let [b, c] = if volume > 0.0 { [b, c] } else { [c, b] };
                     faces.push([a as u32, b as u32, c as u32]);
@@ -206,12 +207,11 @@ fn halved(vertices: &mut Vec<DVec3>, faces: &[[u32; 3]]) -> Vec<[u32; 3]> {
     for &[a, b] in &edges {
         vertices.push((vertices[a as usize] + vertices[b as usize]).normalize());
     }
-    let middle = |a: u32, b: u32| {
-        let found = edges.partition_point(|&edge| edge < [a.min(b), a.max(b)]);
-        first + found as u32
-    };
     let four = faces.iter().flat_map(|&[a, b, c]| {
-        let [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
+        let [ab, bc, ca] = [(a, b), (b, c), (c, a)].map(|(a, b): (u32, u32)| {
+            let found = edges.partition_point(|&edge| edge < [a.min(b), a.max(b)]);
+            first + found as u32
+        });
         [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
     });
     four.collect()

@@ -128,8 +128,9 @@ fn wash() -> Wash {
             .map(|i: usize| {
                 let x = i % width / 40;
                 let y = i / width / 30;
-                let shade = |step: usize| ((x * 7 + y * step) % 11) as f32 / 11.0;
-                [shade(3), shade(5), shade(9), 1.0]
+                let [r, g, b] =
+                    [3, 5, 9].map(|step: usize| ((x * 7 + y * step) % 11) as f32 / 11.0);
+                [r, g, b, 1.0]
             })
             .collect(),
     );

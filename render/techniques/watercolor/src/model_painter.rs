@@ -288,32 +288,33 @@ impl Noise {
             CoherenceMethod::Particles => {
                 let hierarchy = Hierarchy::new(mesh);
                 let waves = [settings.flow.size_px, feature_px];
-                let noise = |i: usize| AnchoredNoise {
-                    wave_px: waves[i],
-                    wave_texels: WAVE_TEXELS as f32,
-                    octaves,
-                    seed: seeds[i],
-                };
-                let mut texture = |seed| compute.upload(&repeating_noise(WAVE_TEXELS, seed));
                 Ok(Self::Particles {
                     particles: Particles::new(&hierarchy, particles as usize),
-                    waves: [noise(0), noise(1)],
-                    textures: [texture(seeds[0])?, texture(seeds[1])?],
+                    waves: [0, 1].map(|i: usize| AnchoredNoise {
+                        wave_px: waves[i],
+                        wave_texels: WAVE_TEXELS as f32,
+                        octaves,
+                        seed: seeds[i],
+                    }),
+                    textures: [
+                        compute.upload(&repeating_noise(WAVE_TEXELS, seeds[0]))?,
+                        compute.upload(&repeating_noise(WAVE_TEXELS, seeds[1]))?,
+                    ],
                 })
             }
             CoherenceMethod::Features => {
                 let hierarchy = Arc::new(Hierarchy::new(mesh));
-                let noise = |largest_px: f32, octaves, persistence| FeatureNoise {
-                    largest_px,
-                    octaves,
-                    persistence,
-                    coverage: features_per_place,
-                };
                 // Features of the finest octave of the grain are as wide as the setting says.
                 let grain_px = feature_px / 2.0 * (1 << (GRAIN_OCTAVES - 1)) as f32;
-                let flow =
-                    noise(settings.flow.size_px / 2.0, octaves, FeatureNoise::FLOW.persistence);
-                let grain = noise(grain_px, GRAIN_OCTAVES, FeatureNoise::DISPERSION.persistence);
+                let coverage = features_per_place;
+                let largest_px = settings.flow.size_px / 2.0;
+                let flow = FeatureNoise { largest_px, octaves, coverage, ..FeatureNoise::FLOW };
+                let grain = FeatureNoise {
+                    largest_px: grain_px,
+                    octaves: GRAIN_OCTAVES,
+                    coverage,
+                    ..FeatureNoise::DISPERSION
+                };
                 // Flow and dispersion of one seed must not have the same features.
                 let features = [seeds[0], seeds[1] ^ u64::MAX]
                     .map(|seed| Features::new(Arc::clone(&hierarchy), seed));
@@ -332,15 +333,16 @@ impl Noise {
         match self {
             Self::Static => Ok(None),
             Self::Particles { particles, waves, textures } => {
-                let mut draw = |i: usize| {
-                    let anchors = particles.anchors(projection, waves[i]);
-                    draw_anchored(compute, depth, &textures[i], &anchors)
-                };
-                Ok(Some([draw(0)?, draw(1)?]))
+                let flow = particles.anchors(projection, waves[0]);
+                let flow = draw_anchored(compute, depth, &textures[0], &flow)?;
+                let grain = particles.anchors(projection, waves[1]);
+                let grain = draw_anchored(compute, depth, &textures[1], &grain)?;
+                Ok(Some([flow, grain]))
             }
             Self::Features { features, noises } => {
-                let mut draw = |i: usize| features[i].draw(compute, depth, projection, noises[i]);
-                Ok(Some([draw(0)?, draw(1)?]))
+                let flow = features[0].draw(compute, depth, projection, noises[0])?;
+                let grain = features[1].draw(compute, depth, projection, noises[1])?;
+                Ok(Some([flow, grain]))
             }
         }
     }

@@ -219,8 +219,8 @@ fn cubic_taps(at: usize, step: f32, size: usize) -> ([usize; 4], [f32; 4]) {
 /// Weights of the cubic B-spline at the share `t` between the second and third of four cells.
 fn b_spline(t: f32) -> [f32; 4] {
     let u = 1.0 - t;
-    let square = |t: f32| (3.0 * t - 6.0) * t * t + 4.0;
-    [u * u * u, square(t), square(u), t * t * t].map(|weight| weight / 6.0)
+    let [second, third] = [t, u].map(|t| (3.0 * t - 6.0) * t * t + 4.0);
+    [u * u * u, second, third, t * t * t].map(|weight| weight / 6.0)
 }
 
 /// Standard deviation of the blur before outlines of the photograph are looked for, as a share

@@ -171,10 +171,9 @@ pub(super) fn paint_layer(
         // Pigment settles in the hollows.
         (Stage::Paper, Some(heights), -settings.paper.strength, 0.5),
     ];
-    let layer = |(stage, texture, strength, pivot): (_, Option<_>, _, _)| {
+    let layers = layers.map(|(stage, texture, strength, pivot)| {
         (stage, texture.map(|texture| DensityLayer { texture, strength, pivot }))
-    };
-    let layers = layers.map(layer);
+    });
     let overall = settings.wash.density;
     if observer.is_some() {
         for (stage, layer) in layers {
@@ -275,8 +274,8 @@ impl Masks {
     /// blue of each mask, as encoded.
     #[must_use]
     pub fn controls(&self, width: usize, height: usize) -> Controls {
-        let control = |mask: &Photograph| {
-            let picture = mask.on_canvas(width, height);
+        let [dry_brush, density] = [&self.dry_brush, &self.density].map(|mask| {
+            let picture = mask.as_ref()?.on_canvas(width, height);
             let values = picture
                 .values()
                 .par_iter()
@@ -285,12 +284,9 @@ impl Masks {
                     (encoded.iter().sum::<f64>() / 3.0) as f32
                 })
                 .collect();
-            Field::from_values(width, height, values)
-        };
-        Controls {
-            dry_brush: self.dry_brush.as_ref().map(control),
-            density: self.density.as_ref().map(control),
-        }
+            Some(Field::from_values(width, height, values))
+        });
+        Controls { dry_brush, density }
     }
 }
 
@@ -328,10 +324,9 @@ impl WashImages {
         color: ColorImage,
         controls: &Controls,
     ) -> Result<Self, DeviceError> {
-        let mut grey =
-            |field: &Option<_>| field.as_ref().map(|field| compute.upload(field)).transpose();
-        let dry_brush = grey(&controls.dry_brush)?;
-        let density = grey(&controls.density)?;
+        let dry_brush =
+            controls.dry_brush.as_ref().map(|field| compute.upload(field)).transpose()?;
+        let density = controls.density.as_ref().map(|field| compute.upload(field)).transpose()?;
         Ok(Self { color, dry_brush, density })
     }
 }

@@ -96,8 +96,11 @@ impl PhotographInWork {
             stage("photograph", self.photograph.with_opacity(width, height)),
             stage("regions", prepared.flat_regions()),
         ];
-        let mut observe = |step: Stage, picture| stages.push(stage(step.name(), picture));
-        self.painted = Some(self.painter.paint_prepared(&prepared, Some(&mut observe))?);
+        let painted = self.painter.paint_prepared(
+            &prepared,
+            Some(&mut |step: Stage, picture| stages.push(stage(step.name(), picture))),
+        )?;
+        self.painted = Some(painted);
         self.prepared = Some(prepared);
         Ok(stages)
     }
@@ -223,12 +226,15 @@ impl Technique for WatercolorPainter {
         (bare.paper.scan, bare.toon.greys) = (None, None);
         let mut changed = settings::changed(&bare, &file.display().to_string(), text)?;
         let folder = file.parent().unwrap_or(Path::new(""));
-        let beside = |named: Option<String>, before: &Option<String>| match named {
-            Some(picture) => Some(folder.join(picture).display().to_string()),
-            None => before.clone(),
-        };
-        changed.paper.scan = beside(changed.paper.scan, &settings.paper.scan);
-        changed.toon.greys = beside(changed.toon.greys, &settings.toon.greys);
+        for (named, before) in [
+            (&mut changed.paper.scan, &settings.paper.scan),
+            (&mut changed.toon.greys, &settings.toon.greys),
+        ] {
+            *named = match named.take() {
+                Some(picture) => Some(folder.join(picture).display().to_string()),
+                None => before.clone(),
+            };
+        }
         Ok(changed)
     }
 
@@ -282,8 +288,10 @@ impl Technique for WatercolorPainter {
             Work::Model(painter) => {
                 let camera = of_model(view)?;
                 let mut stages = vec![stage("surface", painter.unlit(camera)?)];
-                let mut observe = |step: Stage, picture| stages.push(stage(step.name(), picture));
-                painter.paint_stages(camera, Some(&mut observe))?;
+                painter.paint_stages(
+                    camera,
+                    Some(&mut |step: Stage, picture| stages.push(stage(step.name(), picture))),
+                )?;
                 Ok(stages)
             }
         }
@@ -361,9 +369,10 @@ mod tests {
         let error = painter.paint(None, &task).unwrap_err();
         assert_eq!(error.hint().unwrap().to_string(), "give a `camera`");
         task.cancel();
-        let cancelled = |error| matches!(error, WatercolorError::Cancelled(_));
-        assert!(painter.paint(None, &task).is_err_and(cancelled));
-        assert!(WatercolorPainter::prepare(photograph(), &settings, &task).is_err_and(cancelled));
+        let error = painter.paint(None, &task).unwrap_err();
+        assert!(matches!(error, WatercolorError::Cancelled(_)), "{error}");
+        let prepared = WatercolorPainter::prepare(photograph(), &settings, &task);
+        assert!(matches!(prepared, Err(WatercolorError::Cancelled(_))));
     }
 
     #[test]

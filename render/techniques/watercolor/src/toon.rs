@@ -115,10 +115,7 @@ fn shade_toon_on_cpu(
             return;
         }
         let lines = match toon.samples {
-            2 => {
-                let line = |line: usize| visible.row(2 * y + line, 0, 2 * width).as_chunks().0;
-                [line(0), line(1)]
-            }
+            2 => [2 * y, 2 * y + 1].map(|line| visible.row(line, 0, 2 * width).as_chunks().0),
             _ => [&[][..]; 2],
         };
         for (x, pixel) in row.iter_mut().enumerate() {
@@ -359,8 +356,9 @@ mod tests {
                 let mut sum = Vec3::ZERO;
                 let mut last = None;
                 at.iter().for_each(|fragment| sum += shader.color(*fragment, &mut last));
-                let bits = |color: Vec3| color.to_array().map(f32::to_bits);
-                assert_eq!(bits(shader.mean_color(&points)), bits(sum / 4.0), "{x} {y}");
+                let [found, wanted] = [shader.mean_color(&points), sum / 4.0]
+                    .map(|color| color.to_array().map(f32::to_bits));
+                assert_eq!(found, wanted, "{x} {y}");
                 fours += 1;
                 shaded += usize::from(last.is_some_and(|(_, lit)| lit < 1.0));
             }

@@ -232,9 +232,9 @@ impl DirectionField {
         let mut arrows = self.arrows();
         let (order, parts) = self.links.parts();
         for part in parts {
-            let places = || order[part.clone()].iter().map(|&place| place as usize);
-            let agreement: f64 = places().map(|place| arrows[place].dot(wanted[place])).sum();
-            for place in places() {
+            let places = order[part].iter().map(|&place| place as usize);
+            let agreement: f64 = places.clone().map(|place| arrows[place].dot(wanted[place])).sum();
+            for place in places {
                 let own = arrows[place].dot(wanted[place]);
                 if own < 0.0 || (own == 0.0 && agreement < 0.0) {
                     arrows[place] = -arrows[place];

@@ -223,18 +223,18 @@ impl Evidence {
     ) {
         let (order, parts) = links.parts();
         for part in parts {
-            let places = || order[part.clone()].iter().map(|&place| place as usize);
-            if places().any(|place| fixed[place]) {
+            let places = order[part.clone()].iter().map(|&place| place as usize);
+            if places.clone().any(|place| fixed[place]) {
                 continue;
             }
-            let area: f64 = places().map(|place| shapes[place].area).sum();
-            let weight: f64 = places().map(|place| self.weights[place]).sum();
+            let area: f64 = places.clone().map(|place| shapes[place].area).sum();
+            let weight: f64 = places.clone().map(|place| self.weights[place]).sum();
             let share = 1.0 - smoothstep(SHAPELESS, weight / area.max(f64::MIN_POSITIVE));
             if share == 0.0 {
                 continue;
             }
-            let axis = axis_along(&order, part.clone(), planes, shapes);
-            for place in places() {
+            let axis = axis_along(&order, part, planes, shapes);
+            for place in places {
                 let flat = planes[place].projected(axis);
                 let weight = share * shapes[place].area;
                 self.weights[place] += weight * flat.length_squared();

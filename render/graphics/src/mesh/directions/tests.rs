@@ -236,17 +236,15 @@ fn directions_inside_triangles_ignore_signs_and_agree_along_edges() {
 #[test]
 fn the_field_is_the_same_on_every_number_of_threads_and_without_seams() {
     let mesh = Mesh::still_life(12_000);
-    let on = |threads: usize, mesh: &Mesh| {
+    fn on(threads: usize, mesh: &Mesh) -> Vec<([f32; 3], [f32; 3], f32)> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let field = field(mesh);
             let flow = field.oriented(2);
             let vertices = 0..mesh.positions.len();
-            vertices
-                .map(|at: usize| (field.along(at), flow.arrow(at), flow.strength(at)))
-                .collect::<Vec<_>>()
+            vertices.map(|at: usize| (field.along(at), flow.arrow(at), flow.strength(at))).collect()
         })
-    };
+    }
     let whole = on(1, &mesh);
     assert!(whole == on(2, &mesh), "threads matter");
     let apart = on(2, &ragged(&mesh));

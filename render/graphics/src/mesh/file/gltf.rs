@@ -100,32 +100,27 @@ impl Reader<'_> {
     }
 
     fn texture(&self, image: &gltf::Image<'_>) -> Result<Texture, MeshError> {
-        let texture = |texture: String, reason: String| MeshError::Texture {
-            name: self.name.to_owned(),
-            texture,
-            reason,
-        };
         let number = format!("image {}", image.index());
-        match image.source() {
+        let (texture, found) = match image.source() {
             gltf::image::Source::View { view, .. } => {
-                let bytes = slice(&view, &self.buffers);
-                bytes.and_then(Texture::from_bytes).map_err(|reason| texture(number, reason))
+                (number, slice(&view, &self.buffers).and_then(Texture::from_bytes))
             }
             gltf::image::Source::Uri { uri, .. } if uri.starts_with("data:") => {
                 // The buffer loader decodes data URIs too.
                 let source = gltf::buffer::Source::Uri(uri);
                 let found = gltf::buffer::Data::from_source(source, Some(self.folder));
                 let bytes = found.map_err(|error| error.to_string());
-                let picture = bytes.and_then(|bytes| Texture::from_bytes(&bytes));
-                picture.map_err(|reason| texture(number, reason))
+                (number, bytes.and_then(|bytes| Texture::from_bytes(&bytes)))
             }
-            gltf::image::Source::Uri { uri, .. } => {
-                let path = path_of(uri).map_err(|reason| texture(number, reason))?;
-                let bytes = std::fs::read(self.folder.join(&path)).map_err(|e| e.to_string());
-                let picture = bytes.and_then(|bytes| Texture::from_bytes(&bytes));
-                picture.map_err(|reason| texture(path, reason))
-            }
-        }
+            gltf::image::Source::Uri { uri, .. } => match path_of(uri) {
+                Ok(path) => {
+                    let bytes = std::fs::read(self.folder.join(&path)).map_err(|e| e.to_string());
+                    (path, bytes.and_then(|bytes| Texture::from_bytes(&bytes)))
+                }
+                Err(reason) => (number, Err(reason)),
+            },
+        };
+        found.map_err(|reason| MeshError::Texture { name: self.name.to_owned(), texture, reason })
     }
 
     /// Adds the triangles of a primitive. This skips points and lines.

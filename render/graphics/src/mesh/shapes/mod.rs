@@ -159,16 +159,14 @@ fn join(
 /// beside it.
 fn normal(uv: Vec2, position: &impl Fn(Vec2) -> Vec3) -> Vec3 {
     const STEP: f32 = 1e-3;
-    let slopes = |at: Vec2| {
-        let [along_u, along_v] =
-            [Vec2::X, Vec2::Y].map(|axis| position(at + axis * STEP) - position(at - axis * STEP));
-        [along_u, along_v]
-    };
-    let [along_u, along_v] = slopes(uv);
+    fn slopes(at: Vec2, position: &impl Fn(Vec2) -> Vec3) -> [Vec3; 2] {
+        [Vec2::X, Vec2::Y].map(|axis| position(at + axis * STEP) - position(at - axis * STEP))
+    }
+    let [along_u, along_v] = slopes(uv, position);
     let flat =
         along_u.length().min(along_v.length()) < 1e-3 * along_u.length().max(along_v.length());
     let [along_u, along_v] = match flat {
-        true => slopes(uv + (Vec2::splat(0.5) - uv) * (8.0 * STEP)),
+        true => slopes(uv + (Vec2::splat(0.5) - uv) * (8.0 * STEP), position),
         false => [along_u, along_v],
     };
     along_v.cross(along_u).try_normalize().unwrap_or(Vec3::Y)

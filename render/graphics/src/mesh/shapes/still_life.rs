@@ -157,12 +157,11 @@ fn add_pear(mesh: &mut Mesh, triangles: usize, at: Vec3, pose: Quat, size: f32) 
         [0.14, 0.0],
         [0.0, 0.05],
     ]);
-    let placed = |position: Vec3| at + pose * (position * size);
     mesh.add_grid(GridSize::for_triangles(triangles * 9 / 10, 1.1), FRUIT, |uv| {
         let position = body(uv);
         // The neck leans sideways.
         let lean = 0.09 * smoothstep([0.5, 1.1], position.y);
-        placed(position + Vec3::new(lean, 0.0, 0.4 * lean))
+        at + pose * ((position + Vec3::new(lean, 0.0, 0.4 * lean)) * size)
     });
     let turned_back = pose.inverse();
     mesh.tint(first, |position| {
@@ -173,7 +172,9 @@ fn add_pear(mesh: &mut Mesh, triangles: usize, at: Vec3, pose: Quat, size: f32) 
     });
     let stem = [[0.08, 1.06, 0.03], [0.10, 1.22, 0.04], [0.16, 1.36, 0.06]].map(Vec3::from);
     let stem = tube(&stem, |v| 0.03 * smoothstep([0.0, 0.1], v.min(1.0 - v)));
-    mesh.add_grid(GridSize::for_triangles(triangles / 10, 0.5), WOOD, |uv| placed(stem(uv)));
+    mesh.add_grid(GridSize::for_triangles(triangles / 10, 0.5), WOOD, |uv| {
+        at + pose * (stem(uv) * size)
+    });
 }
 
 fn add_lemon(mesh: &mut Mesh, triangles: usize, at: Vec3) {

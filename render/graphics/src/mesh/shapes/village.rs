@@ -161,14 +161,15 @@ fn add_house(mesh: &mut Mesh, at: Vec3, turn: f32, size: Vec3, [wall, roof]: [u3
         let eave = [on(out, low, end), on(out, low, -end)];
         let top = ridge + 0.02;
         add_flat(mesh, [on(0.0, top, end), on(0.0, top, -end), eave[0], eave[1]], roof);
-        let pane = |x: f32, y: f32, half: f32, high: f32| {
-            let z = l + 0.012;
-            let [left, right] = [x - half, x + half];
-            [on(left, y + high, z), on(right, y + high, z), on(left, y, z), on(right, y, z)]
-        };
-        add_flat(mesh, pane(-0.45 * w, 0.45 * h, 0.14 * w, 0.3 * h), DARK);
-        add_flat(mesh, pane(0.45 * w, 0.45 * h, 0.14 * w, 0.3 * h), DARK);
-        add_flat(mesh, pane(0.0, h + 0.2 * w, 0.11 * w, 0.25 * w), DARK);
+        for [x, low, half, high] in [
+            [-0.45 * w, 0.45 * h, 0.14 * w, 0.3 * h],
+            [0.45 * w, 0.45 * h, 0.14 * w, 0.3 * h],
+            [0.0, h + 0.2 * w, 0.11 * w, 0.25 * w],
+        ] {
+            let pane =
+                [[x - half, low + high], [x + half, low + high], [x - half, low], [x + half, low]];
+            add_flat(mesh, pane.map(|[x, y]| on(x, y, l + 0.012)), DARK);
+        }
         for along in [-0.55, 0.0, 0.55] {
             let z = along * l;
             let x = w + 0.012;
@@ -195,11 +196,11 @@ fn add_tower(
 ) {
     for quarter in 0..4 {
         let turn = Quat::from_rotation_y(quarter as f32 * TAU / 4.0);
-        let on = |x: f32, y: f32| placed(turn * Vec3::new(x, y, half));
-        add_flat(mesh, [on(-half, high), on(half, high), on(-half, 0.0), on(half, 0.0)], material);
+        let wall = [[-half, high], [half, high], [-half, 0.0], [half, 0.0]];
+        add_flat(mesh, wall.map(|[x, y]| placed(turn * Vec3::new(x, y, half))), material);
     }
-    let lid = |x: f32, z: f32| placed(Vec3::new(x * half, high, z * half));
-    add_flat(mesh, [lid(-1.0, -1.0), lid(1.0, -1.0), lid(-1.0, 1.0), lid(1.0, 1.0)], material);
+    let lid = [[-half, -half], [half, -half], [-half, half], [half, half]];
+    add_flat(mesh, lid.map(|[x, z]| placed(Vec3::new(x, high, z))), material);
 }
 
 fn add_church(mesh: &mut Mesh) {
@@ -210,11 +211,11 @@ fn add_church(mesh: &mut Mesh) {
     add_tower(mesh, &tower, [0.42, 3.6], WALLS[0]);
     for quarter in 0..4 {
         let side = Quat::from_rotation_y(quarter as f32 * TAU / 4.0);
-        let on = |x: f32, y: f32, z: f32| tower(side * Vec3::new(x, y, z));
-        let top = on(0.0, 5.2, 0.0);
-        add_flat(mesh, [top, top, on(-0.5, 3.58, 0.5), on(0.5, 3.58, 0.5)], ROOFS[1]);
+        let top = [0.0, 5.2, 0.0];
+        let roof = [top, top, [-0.5, 3.58, 0.5], [0.5, 3.58, 0.5]];
+        add_flat(mesh, roof.map(|corner| tower(side * Vec3::from(corner))), ROOFS[1]);
         let sound = [[-0.13, 3.2], [0.13, 3.2], [-0.13, 2.75], [0.13, 2.75]];
-        add_flat(mesh, sound.map(|[x, y]| on(x, y, 0.432)), DARK);
+        add_flat(mesh, sound.map(|[x, y]| tower(side * Vec3::new(x, y, 0.432))), DARK);
     }
 }
 

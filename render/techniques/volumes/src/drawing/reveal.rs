@@ -325,8 +325,7 @@ mod tests {
 
     fn shaded(width: usize, height: usize) -> Field<[f32; 4]> {
         field(width, height, |x, y| {
-            let share = |step: usize| ((x * step + y * 17) % 101) as f32 / 101.0;
-            [share(3), share(29), share(47), share(61)]
+            [3, 29, 47, 61].map(|step: usize| ((x * step + y * 17) % 101) as f32 / 101.0)
         })
     }
 
@@ -403,10 +402,10 @@ mod tests {
         }
         let red = [0.9, 0.1, 0.1];
         let blue = [0.1, 0.2, 0.8];
-        let over = |first: Region, second: Region| picture((5, 1), &[first, second], None)[(0, 0)];
-        let found = over(everywhere(&[0.0, 1.0], red), everywhere(&[0.0, 1.0], blue));
-        assert_eq!(found, [0.1, 0.2, 0.8, 1.0]);
-        let found = over(everywhere(&[0.0, 1.0], red), everywhere(&[0.0, 0.25], blue));
+        let regions = [everywhere(&[0.0, 1.0], red), everywhere(&[0.0, 1.0], blue)];
+        assert_eq!(picture((5, 1), &regions, None)[(0, 0)], [0.1, 0.2, 0.8, 1.0]);
+        let regions = [everywhere(&[0.0, 1.0], red), everywhere(&[0.0, 0.25], blue)];
+        let found = picture((5, 1), &regions, None)[(0, 0)];
         for i in 0..3 {
             assert!((found[i] - (0.75 * red[i] + 0.25 * blue[i])).abs() < 1e-6, "{found:?}");
         }
@@ -444,18 +443,16 @@ mod tests {
             _ => Fragment { triangle: 0, ..Fragment::EMPTY },
         });
         let regions = [region(counts, &[0.0, 1.0], Inside::OwnColors)];
-        let found = |paper| {
+        let [on_paper, bare] = [Some([0.9, 0.8, 0.7]), None].map(|paper| {
             let shaded = shaded.clone().into();
             let visible = visible.clone().into();
             let picture = reveal(&mut Compute::cpu(), &shaded, &visible, &regions, paper, 2);
             picture.unwrap().into_host()
-        };
-        let on_paper = found(Some([0.9, 0.8, 0.7]));
+        });
         assert!(
             (on_paper[(0, 0)][0] - 0.6).abs() < 1e-6 && (on_paper[(0, 0)][1] - 0.1).abs() < 1e-6
         );
         assert!((on_paper[(1, 0)][0] - 0.8).abs() < 1e-6, "{on_paper:?}");
-        let bare = found(None);
         assert_eq!(bare[(1, 0)], [0.5, 0.5, 0.5, 0.25]);
     }
 
@@ -477,36 +474,27 @@ mod tests {
         for (samples, width, height) in
             [(1, 1, 1), (1, 8, 8), (1, 67, 33), (2, 34, 18), (3, 201, 99)]
         {
-            let regions = |compute: &mut Compute| {
-                let inside =
-                    Field::from_values(width, height, shaded(height, width).values().to_vec());
-                let mut region = |step, tints: &[f32], inside| Region {
-                    counts: compute.upload(&counts(width, height, step)).unwrap(),
-                    table: TintTable::new(tints.to_vec()).unwrap(),
-                    inside,
-                    stain: [[0.4, 0.9, 0.7], Region::UNSTAINED][step % 2],
-                };
-                let mut regions = vec![
-                    region(3, &[0.0, 0.25, 0.5, 0.75, 1.0], Inside::OwnColors),
-                    region(5, &[0.0, 0.5], Inside::OwnColors),
-                    region(2, &[0.0, 0.0, 0.0, 0.6], Inside::OwnColors),
-                ];
-                regions[2].inside = Inside::Picture(compute.upload(&inside).unwrap());
-                regions
-            };
+            let steps: [(usize, &[f32]); 3] =
+                [(3, &[0.0, 0.25, 0.5, 0.75, 1.0]), (5, &[0.0, 0.5]), (2, &[0.0, 0.0, 0.0, 0.6])];
+            let inside = Field::from_values(width, height, shaded(height, width).values().to_vec());
             for paper in [None, Some([0.9, 0.85, 0.8])] {
                 for count in [0, 1, 3] {
-                    let picture = |compute: &mut Compute| {
-                        let all = regions(compute);
+                    let computes = [&mut Compute::cpu(), &mut gpu];
+                    let [wanted, found] = computes.map(|compute: &mut Compute| {
+                        let mut all = steps.map(|(step, tints)| Region {
+                            counts: compute.upload(&counts(width, height, step)).unwrap(),
+                            table: TintTable::new(tints.to_vec()).unwrap(),
+                            inside: Inside::OwnColors,
+                            stain: [[0.4, 0.9, 0.7], Region::UNSTAINED][step % 2],
+                        });
+                        all[2].inside = Inside::Picture(compute.upload(&inside).unwrap());
                         let shaded = compute.upload(&shaded(width, height)).unwrap();
                         let visible = compute.upload(&visible(width, height)).unwrap();
                         let picture =
                             reveal(compute, &shaded, &visible, &all[..count], paper, samples)
                                 .unwrap();
                         compute.download(&picture).unwrap()
-                    };
-                    let wanted = picture(&mut Compute::cpu());
-                    let found = picture(&mut gpu);
+                    });
                     let (most, _) = far(&wanted, &found);
                     assert!(most < 0.01 / 255.0, "{width} x {height}, {count}: {most}");
                 }

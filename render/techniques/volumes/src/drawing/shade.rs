@@ -395,13 +395,12 @@ mod tests {
         let mesh = SampleModel::StillLife.mesh(4000);
         let mut scene = Scene::new(Compute::cpu(), &mesh);
         let camera = camera(&mesh, 1.5);
-        let mut shaded = |inside, outside| {
+        let strengths = [(1.0, 1.0), (0.0, 1.0), (0.0, 0.0)];
+        let [both, only_outside, none] = strengths.map(|(inside, outside)| {
             let hatching = HatchingLook { inside, outside, ..HatchingLook::default() };
             let look = DrawingLook { hatching, ..DrawingLook::default() };
             scene.shade(&camera, (150, 100), &look).0
-        };
-        let [both, only_outside, none] =
-            [(1.0, 1.0), (0.0, 1.0), (0.0, 0.0)].map(|(a, b)| shaded(a, b));
+        });
         let mut darker = 0;
         for i in 0..both.values().len() {
             let [both, outside, none] =
@@ -461,25 +460,25 @@ mod tests {
         let framing = Framing { aspect: 4.0 / 3.0, ..Framing::default() };
         let cameras = framing.fit_turntable(&mesh.positions, 60);
         let [mut moved, mut still] = [Popping::default(); 2];
-        let mut frame = |number: usize| {
-            let Scene { compute, model, .. } = &mut scene;
-            let visible = model.visible(compute, &cameras[number], size.0, size.1).unwrap();
-            let visible = compute.download(&visible).unwrap();
-            let picture = scene.grey(&cameras[number], size, look);
-            let grey = picture.values().iter().map(|pixel| pixel[0]).collect();
-            let projection = Projection::new(&cameras[number], size.0, size.1);
-            (projection, depth_field(&visible), Field::from_values(size.0, size.1, grey))
-        };
         for step in 0..steps {
             let first = step * 60 / steps;
-            let [before, mut after] = [first, (first + 1) % 60].map(&mut frame);
+            let [before, mut after] = [first, (first + 1) % 60].map(|number: usize| {
+                let Scene { compute, model, .. } = &mut scene;
+                let visible = model.visible(compute, &cameras[number], size.0, size.1).unwrap();
+                let visible = compute.download(&visible).unwrap();
+                let picture = scene.grey(&cameras[number], size, look);
+                let grey = picture.values().iter().map(|pixel| pixel[0]).collect();
+                let projection = Projection::new(&cameras[number], size.0, size.1);
+                (projection, depth_field(&visible), Field::from_values(size.0, size.1, grey))
+            });
             // We cannot compare where the picture that stands still shows no model.
             let pairs = after.1.values_mut().iter_mut().zip(before.1.values());
             pairs.filter(|(_, before)| **before == 1.0).for_each(|(after, _)| *after = 1.0);
             let last = NoiseFrame { projection: &before.0, depth: &before.1, noise: &before.2 };
-            let next = |noise| NoiseFrame { projection: &after.0, depth: &after.1, noise };
-            moved = moved.merge(Popping::between(last, next(&after.2)));
-            still = still.merge(Popping::between(last, next(&before.2)));
+            let next = NoiseFrame { projection: &after.0, depth: &after.1, noise: &after.2 };
+            moved = moved.merge(Popping::between(last, next));
+            let next = NoiseFrame { noise: &before.2, ..next };
+            still = still.merge(Popping::between(last, next));
         }
         moved.rms() / still.rms()
     }
@@ -531,12 +530,10 @@ mod tests {
         let mesh = SampleModel::StillLife.mesh(4000);
         let mut scene = Scene::new(Compute::cpu(), &mesh);
         let camera = camera(&mesh, 1.5);
-        let mut shaded = |pale| {
+        let [plain, pale] = [0.0, 0.6].map(|pale| {
             let look = DrawingLook { pale, ..DrawingLook::default() };
             scene.shade(&camera, (75, 50), &look).0
-        };
-        let plain = shaded(0.0);
-        let pale = shaded(0.6);
+        });
         for (plain, pale) in plain.values().iter().zip(pale.values()) {
             assert_eq!(plain[..3], pale[..3]);
             assert!((0.0..=1.0).contains(&pale[3]), "{pale:?}");
@@ -563,14 +560,12 @@ mod tests {
                 // We use one visibility buffer for both, since rasterisers differ at edges.
                 let [cpu, gpu] = &mut scenes;
                 let seen = cpu.model.visible(&mut cpu.compute, &camera, width, height).unwrap();
-                let draw = |scene: &mut Scene| {
+                let [wanted, found] = [cpu, gpu].map(|scene: &mut Scene| {
                     let Scene { compute, model, hatching } = scene;
                     let visible = compute.upload(seen.host()).unwrap();
                     let shaded = shade(compute, model, &visible, &camera, &look, hatching).unwrap();
                     compute.download(&shaded).unwrap()
-                };
-                let wanted = draw(cpu);
-                let found = draw(gpu);
+                });
                 let (most, _) = far(&wanted, &found);
                 assert!(most <= 1.0 / 255.0, "{width} x {height} {coordinates:?}: {most}");
             }

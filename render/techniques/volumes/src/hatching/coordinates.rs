@@ -99,7 +99,12 @@ impl Placing {
         let weights = weights / (weights.x + weights.y + weights.z).max(f32::MIN_POSITIVE);
         let at = (position - self.origin) * self.tiles;
         // Strokes fall from right to left on every side of an upright model.
-        let plane = |weight: f32, right: Vec3, up: Vec3| {
+        let planes = [
+            (weights.x, -Vec3::Z * side(normal.x), Vec3::Y),
+            (weights.y, Vec3::X, -Vec3::Z * side(normal.y)),
+            (weights.z, Vec3::X * side(normal.z), Vec3::Y),
+        ];
+        planes.map(|(weight, right, up): (f32, Vec3, Vec3)| {
             if weight <= 0.0 {
                 return Patch::default();
             }
@@ -116,12 +121,7 @@ impl Placing {
                 v_per_px: sight.per_px(along_v) * self.tiles,
                 weight,
             }
-        };
-        [
-            plane(weights.x, -Vec3::Z * side(normal.x), Vec3::Y),
-            plane(weights.y, Vec3::X, -Vec3::Z * side(normal.y)),
-            plane(weights.z, Vec3::X * side(normal.z), Vec3::Y),
-        ]
+        })
     }
 }
 

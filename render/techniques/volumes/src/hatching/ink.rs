@@ -210,8 +210,8 @@ mod tests {
                 let mut sum = 0.0;
                 for y in 0..pixels {
                     for x in 0..pixels {
-                        let share = |at: i32| (at as f32 + 0.5) / pixels as f32 * whole;
-                        let ink = inking.ink(&patch([share(x), share(y)], side_px), tone);
+                        let at = [x, y].map(|at: i32| (at as f32 + 0.5) / pixels as f32 * whole);
+                        let ink = inking.ink(&patch(at, side_px), tone);
                         sum += f64::from(ink);
                     }
                 }

@@ -92,8 +92,9 @@ fn grain(seed: u64) -> Vec<f32> {
         .map(|texel: usize| {
             let x = texel % SIDE;
             let y = texel / SIDE;
-            let at = |dx: usize, dy: usize| rough[(y + dy) % SIDE * SIDE + (x + dx) % SIDE];
-            let height = (at(0, 0) + at(1, 0) + at(0, 1) + at(1, 1)) / 4.0;
+            let [above, under] =
+                [y, y + 1].map(|y| [rough[wrapped(x, y)], rough[wrapped(x + 1, y)]]);
+            let height = (above[0] + above[1] + under[0] + under[1]) / 4.0;
             GRAIN * height + DEPTH * (height - VALLEY).max(0.0).powi(2)
         })
         .collect()
@@ -123,10 +124,10 @@ fn evenly_spread(raw: &[f32], grain: &[f32], seed: u64) -> Vec<u8> {
 /// Spreads thresholds so that the values interpolated between the texels are more even. You only
 /// see these values, and there are fewer of them at the ends of the range.
 fn spread_between(thresholds: &mut [f32]) {
-    let at = |x: usize, y: usize| thresholds[(y % SIDE) * SIDE + x % SIDE];
     let mut below = vec![0_u32; BINS + 1];
     for (x, y) in (0..SIDE * SIDE).map(|texel| (texel % SIDE, texel / SIDE)) {
-        let [above, under] = [y, y + 1].map(|y| [at(x, y), at(x + 1, y)]);
+        let [above, under] =
+            [y, y + 1].map(|y| [thresholds[wrapped(x, y)], thresholds[wrapped(x + 1, y)]]);
         for down in [0.25, 0.75] {
             let [left, right] = [0, 1].map(|side| above[side] + (under[side] - above[side]) * down);
             for along in [0.25, 0.75] {
@@ -146,14 +147,19 @@ fn spread_between(thresholds: &mut [f32]) {
 }
 
 fn quads_of(thresholds: &[u8]) -> Vec<u32> {
-    let at = |x: usize, y: usize| thresholds[(y % SIDE) * SIDE + x % SIDE];
     (0..SIDE * SIDE)
         .map(|texel: usize| {
             let x = texel % SIDE;
             let y = texel / SIDE;
-            u32::from_le_bytes([at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1)])
+            let corners = [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)];
+            u32::from_le_bytes(corners.map(|(x, y)| thresholds[wrapped(x, y)]))
         })
         .collect()
+}
+
+/// Index of a texel of the texture, which repeats.
+fn wrapped(x: usize, y: usize) -> usize {
+    (y % SIDE) * SIDE + x % SIDE
 }
 
 /// One texture for all tests that need any texture.
@@ -378,14 +384,13 @@ mod tests {
     #[test]
     fn strokes_are_long_and_thin_and_uneven() {
         let all = thresholds(sample_texture(), SLICES - 1);
-        let inked = |x: usize, y: usize| all[(y % SIDE) * SIDE + x % SIDE] > 204;
-        let runs = |across: bool| {
+        let [wide, long] = [true, false].map(|across| {
             let mut runs = Vec::new();
             for line in 0..SIDE {
                 let mut run = 0;
                 for at in 0..SIDE {
-                    let inked = if across { inked(line, at) } else { inked(at, line) };
-                    match inked {
+                    let texel = if across { wrapped(line, at) } else { wrapped(at, line) };
+                    match all[texel] > 204 {
                         true => run += 1,
                         false if run > 0 => runs.push(std::mem::take(&mut run)),
                         false => {}
@@ -393,19 +398,17 @@ mod tests {
                 }
             }
             runs
-        };
+        });
         fn mean(runs: &[usize]) -> f32 {
             runs.iter().sum::<usize>() as f32 / runs.len() as f32
         }
-        let wide = runs(true);
-        let long = runs(false);
         assert!((1.2..3.5).contains(&mean(&wide)), "{}", mean(&wide));
         assert!(mean(&long) > 3.0 * mean(&wide), "{}", mean(&long));
         let spread = long.iter().map(|&run| (run as f32 - mean(&long)).powi(2)).sum::<f32>();
         assert!((spread / long.len() as f32).sqrt() > 0.5 * mean(&long), "equal lengths");
         // No row is inked from end to end, so these are strokes and not stripes.
         for row in 0..SIDE {
-            let share = (0..SIDE).filter(|&x| inked(x, row)).count();
+            let share = (0..SIDE).filter(|&x| all[wrapped(x, row)] > 204).count();
             assert!(share < 430, "{row}: {share}");
         }
     }

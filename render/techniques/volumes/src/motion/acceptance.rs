@@ -359,8 +359,7 @@ fn every_cone_stays_open_whatever_happens() {
 }
 
 fn unit(random: &mut ChaCha8Rng) -> Vec3 {
-    let mut along = || 2.0 * random.random::<f32>() - 1.0;
-    Vec3::new(along(), along(), along()).normalize_or(Vec3::X)
+    Vec3::from([(); 3].map(|()| 2.0 * random.random::<f32>() - 1.0)).normalize_or(Vec3::X)
 }
 
 /// A number from 0 to `most`. It is 0, or even in its logarithm over seven decades.

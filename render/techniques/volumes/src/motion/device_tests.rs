@@ -140,12 +140,11 @@ fn a_surface_pulls_alike_but_for_particles_between_two_samples() {
     let surface = Some(Arc::new(SurfaceLattice::of(&floor, 1.0).unwrap()));
     let surroundings = Surroundings { surface, ..Surroundings::new(1.0, 5) };
     let settings = MotionSettings::default();
-    let keep = |_: usize, _: &mut Surroundings, _: [&[Volume]; 2]| ();
     let volumes = row(&[2, 3, 3]);
-    let [own, other] =
-        both(&mut device, &volumes, &settings, surroundings.clone(), (1000, STEP), keep);
+    let bound = surroundings.clone();
+    let [own, other] = both(&mut device, &volumes, &settings, bound, (1000, STEP), |_, _, _| {});
     let loose = Surroundings { surface: None, ..surroundings };
-    let [free, _] = both(&mut device, &volumes, &settings, loose, (1000, STEP), keep);
+    let [free, _] = both(&mut device, &volumes, &settings, loose, (1000, STEP), |_, _, _| {});
     for ((own, other), free) in own.iter().zip(&other).zip(&free) {
         let mut all = distances(own, other);
         all.sort_by(f32::total_cmp);

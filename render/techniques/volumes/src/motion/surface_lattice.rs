@@ -259,13 +259,15 @@ mod tests {
         let mut exact = 0;
         for _ in 0..4000 {
             let place = Vec3::new(8.0 * unit() - 1.0, 4.0 * unit() - 2.0, 9.0 * unit() - 1.0);
-            let to = |sample: Vec3| sample.distance(place);
-            let nearest = places.iter().copied().min_by(|a, b| to(*a).total_cmp(&to(*b))).unwrap();
+            let nearest = places.iter().copied();
+            let nearest =
+                nearest.min_by(|a, b| a.distance(place).total_cmp(&b.distance(place))).unwrap();
+            let least = nearest.distance(place);
             let Some(sample) = lattice.nearest(place) else {
-                assert!(to(nearest) > 0.99, "{place} is {} from a sample", to(nearest));
+                assert!(least > 0.99, "{place} is {least} from a sample");
                 continue;
             };
-            assert!(to(sample) <= to(nearest) + 0.434, "{place}: {sample}, {nearest}");
+            assert!(sample.distance(place) <= least + 0.434, "{place}: {sample}, {nearest}");
             found += 1;
             exact += usize::from(sample == nearest);
         }

@@ -94,14 +94,13 @@ impl Films {
         (counter.profile, counter.scale) = (profile, scale);
         counter.tell_bodies(&grid.bodies.of_triangles);
         let kind = settings.drawing.film;
-        let wanted = |volume: &Volume| {
+        let volumes = world.volumes().iter().zip(world.facing());
+        let volumes = volumes.filter(|(volume, _)| {
             let region = regions.get(usize::from(volume.region));
             // You see films through volumes before surfaces too.
             region.is_some_and(|region| region.inside.has_films())
                 && (kind == FilmKind::Through || in_sight.may_hold(volume))
-        };
-        let volumes = world.volumes().iter().zip(world.facing());
-        let volumes = volumes.filter(|(volume, _)| wanted(volume));
+        });
         // Films stay on what the cells of their volumes face, as colours do.
         let volumes: Vec<Volume> = volumes
             .map(|(volume, normal): (&Volume, Vec3)| Volume { normal, ..volume.clone() })

@@ -96,11 +96,9 @@ impl InSight {
 }
 
 fn bounds(volume: &Volume) -> [Vec3; 2] {
-    let along = |axis: usize, start: f32, choose: fn(f32, f32) -> f32| {
-        volume.particles.places[axis].iter().copied().fold(start, choose)
-    };
-    let low = [0, 1, 2].map(|axis| along(axis, f32::INFINITY, f32::min));
-    let high = [0, 1, 2].map(|axis| along(axis, f32::NEG_INFINITY, f32::max));
+    let axes = volume.particles.places.each_ref();
+    let low = axes.map(|axis: &Vec<f32>| axis.iter().copied().fold(f32::INFINITY, f32::min));
+    let high = axes.map(|axis: &Vec<f32>| axis.iter().copied().fold(f32::NEG_INFINITY, f32::max));
     [low, high].map(|corner| volume.center + Vec3::from(corner))
 }
 
@@ -245,8 +243,9 @@ pub(super) fn profile(settings: &Settings) -> FilmProfile {
 }
 
 pub(super) fn inside(regions: &[RegionLook]) -> InsidePaint {
-    let any = |wanted: fn(InsidePaint) -> bool| regions.iter().any(|own| wanted(own.inside));
-    match (any(InsidePaint::has_own_colors), any(InsidePaint::has_films)) {
+    let has_own_colors = regions.iter().any(|own| own.inside.has_own_colors());
+    let has_films = regions.iter().any(|own| own.inside.has_films());
+    match (has_own_colors, has_films) {
         (true, false) => InsidePaint::OwnColors,
         (false, _) => InsidePaint::Glaze,
         (true, true) => InsidePaint::Both,
@@ -344,9 +343,9 @@ mod tests {
             let seen = visible(&plane(20), &camera, 97, 61);
             let in_sight = InSight::new(&camera, &Image::from(seen.clone()));
             for i in 0..400_u64 {
-                let at = |by: u64, most: f32| (i * by % 401) as f32 / 401.0 * most;
-                let center = Vec3::new(at(7, 8.0) - 2.0, at(31, 8.0) - 2.0, at(97, 3.0) - 1.5);
-                let volume = bumpy(center, 0.1 + at(13, 0.5), 1, i);
+                let [x, y, z, wide] = [7, 31, 97, 13].map(|by: u64| (i * by % 401) as f32 / 401.0);
+                let center = Vec3::new(8.0 * x - 2.0, 8.0 * y - 2.0, 3.0 * z - 1.5);
+                let volume = bumpy(center, 0.1 + 0.5 * wide, 1, i);
                 let holds = count(&volume, &camera, &seen) > 0;
                 let kept = in_sight.may_hold(&volume);
                 assert!(kept || !holds, "{turned}: volume {i} at {center}");

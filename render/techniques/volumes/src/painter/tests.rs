@@ -438,10 +438,9 @@ fn red_and_blue(sunk: f32) -> [usize; 2] {
     let mut painter = VolumePainter::new(&mesh, &Settings::default(), &[style]).unwrap();
     let framing = Framing { aspect: 1.25, ..Framing::default() };
     let picture = painter.paint(&world, &framing.fit(&mesh.positions), (150, 120)).unwrap();
-    let above = |one: usize, other: usize| {
+    [(0, 2), (2, 0)].map(|(one, other): (usize, usize)| {
         picture.values().iter().filter(|color| color[one] > color[other] + 0.1).count()
-    };
-    [above(0, 2), above(2, 0)]
+    })
 }
 
 #[test]

@@ -282,21 +282,21 @@ fn at_event(event: &Event, error: WorldError) -> PerformanceError {
 fn of_settings(error: WorldError, settings: &Settings, scene: &Mesh) -> PerformanceError {
     let [low, high] = scene.bounds();
     let longest = f64::from((high - low).max_element());
-    let setting = |fault| PerformanceError::Setting { place: String::new(), fault };
-    match error {
+    let fault = match error {
         WorldError::Wetting(WettingError::TooManyCells { fits, .. }) => {
             let cell = settings.grid.cell.into();
-            setting(script::cells_too_small(cell, f64::from(fits) / longest))
+            script::cells_too_small(cell, f64::from(fits) / longest)
         }
         WorldError::Motion(MotionError::TooFine { fitting_cell, .. }) => {
             let cell = settings.grid.cell.into();
-            setting(script::cells_too_small(cell, f64::from(fitting_cell) / longest))
+            script::cells_too_small(cell, f64::from(fitting_cell) / longest)
         }
         WorldError::Wetting(WettingError::TooManySamples { found, fits }) => {
-            setting(script::samples_too_many(found, fits))
+            script::samples_too_many(found, fits)
         }
-        error => PerformanceError::World(error),
-    }
+        error => return PerformanceError::World(error),
+    };
+    PerformanceError::Setting { place: String::new(), fault }
 }
 
 fn narrow(place: [f64; 3]) -> Vec3 {

@@ -1,7 +1,6 @@
 //! Plays scripts on worlds.
 
 use documents::hint::Explain;
-use glam::Vec3;
 use graphics::camera::{Camera, Framing};
 use graphics::compute::Compute;
 use graphics::mesh::{Mesh, SampleModel};
@@ -117,11 +116,11 @@ fn a_script_played_on_a_device_pours_the_same_paint() {
     assert!(other.step() == 120 && on_device.serves(other.world()));
     other.advance_on(&mut on_device, 240).unwrap();
     assert_eq!(own.world().tally(), other.world().tally());
-    let paint = |played: &Performance| {
+    let [own, other] = [&own, &other].map(|played: &Performance| {
         let volumes = played.world().volumes().iter();
         volumes.map(|volume| (volume.paint, volume.center, volume.radius)).collect::<Vec<_>>()
-    };
-    assert_eq!(paint(&own), paint(&other));
+    });
+    assert_eq!(own, other);
     // Without one, the processor plays it.
     let [mut small, mut usual] = [begun(BUSY).unwrap(), begun(BUSY).unwrap()];
     let mut on_device = StepDevice::beside(&Compute::cpu());
@@ -255,9 +254,8 @@ fn a_dryer_with_a_radius_dries_what_lies_below_it() {
     let volumes = played.world().volumes();
     let (dry, wet): (Vec<_>, Vec<_>) = volumes.iter().partition(|volume| volume.dry);
     assert!(!dry.is_empty() && !wet.is_empty(), "{} and {}", dry.len(), wet.len());
-    let away = |volume: &crate::volume::Volume| volume.center.distance(place);
-    assert!(dry.iter().all(|volume| away(volume) < radius + cell));
-    assert!(wet.iter().all(|volume| away(volume) > radius - cell));
+    assert!(dry.iter().all(|volume| volume.center.distance(place) < radius + cell));
+    assert!(wet.iter().all(|volume| volume.center.distance(place) > radius - cell));
 }
 
 #[test]
@@ -268,9 +266,8 @@ fn volumes_of_a_script_stay_in_its_regions() {
     played.advance_to(360).unwrap();
     let world = played.world();
     let insides: Vec<Inside> = world.volumes().iter().map(Inside::of).collect();
-    let held = |place: &Vec3| insides.iter().any(|inside| inside.holds(*place));
-    let samples = world.grid().samples.places.iter().filter(|place| held(place));
-    let held: Vec<Vec3> = samples.copied().collect();
+    let mut held = world.grid().samples.places.clone();
+    held.retain(|place| insides.iter().any(|inside| inside.holds(*place)));
     assert!(held.iter().all(|place| place.x >= 0.0));
     let near = held.iter().filter(|place| place.x < 0.5 * world.cell()).count();
     assert!(held.len() > 500 && near > 20, "{} {near}", held.len());

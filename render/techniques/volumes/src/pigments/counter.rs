@@ -203,10 +203,11 @@ mod tests {
         for slot in [0, 1, 2, SLOTS] {
             let sum: f64 = heights.values().iter().map(|heights| f64::from(heights.0[slot])).sum();
             let laid = sum * mm_from_quanta(1, SCALE.cell_mm) * pixel_mm * pixel_mm;
-            let quanta =
-                |cell: &Cell| if slot < SLOTS { cell.pigments[slot] } else { cell.vehicle };
-            let all: f64 =
-                poured.volumes.iter().map(|volume| f64::from(quanta(&volume.paint))).sum();
+            let quanta = poured.volumes.iter().map(|volume| match slot {
+                SLOTS => volume.paint.vehicle,
+                _ => volume.paint.pigments[slot],
+            });
+            let all: f64 = quanta.map(f64::from).sum();
             let ratio = laid / (all * SCALE.quantum_mm3);
             assert!((0.98..1.02).contains(&ratio), "{slot}: {ratio}");
         }
@@ -220,13 +221,13 @@ mod tests {
         let samples = SurfaceSamples::of(&mesh, cell, SAMPLES_PER_CELL, 5).unwrap();
         let surface = SampledSurface::from(&samples);
         let lattice = SampleLattice::of(surface.places, cell);
-        let pick = |at: usize| (at * 7919 + 11) % samples.len();
         let volumes: Vec<Volume> = (0..40)
             .map(|at| {
                 let radius = cell * (0.5 + 0.02 * at as f32);
-                let mut volume = bumpy(samples.places[pick(at)], radius, 2, at as u64);
+                let sample = (at * 7919 + 11) % samples.len();
+                let mut volume = bumpy(samples.places[sample], radius, 2, at as u64);
                 volume.paint = Cell { pigments: [0; SLOTS], vehicle: 2_000_000 };
-                volume.normal = samples.normals[pick(at)];
+                volume.normal = samples.normals[sample];
                 volume
             })
             .collect();

@@ -111,8 +111,9 @@ impl FilmHeights {
     #[must_use]
     #[inline]
     pub fn cell(&self) -> Cell {
-        let amount = |slot: usize| self.0[slot].max(0) as u32;
-        let cell = Cell { pigments: std::array::from_fn(amount), vehicle: amount(SLOTS) };
+        let amounts = self.0.map(|amount| amount.max(0) as u32);
+        let pigments = std::array::from_fn(|slot: usize| amounts[slot]);
+        let cell = Cell { pigments, vehicle: amounts[SLOTS] };
         let bits = cell.pigments.iter().fold(cell.vehicle, |bits, amount| bits | amount);
         if bits < MAX_COLUMN / (SLOTS as u32 + 1) {
             return cell;
@@ -469,12 +470,10 @@ mod tests {
     #[test]
     fn films_rise_over_the_rim_stand_higher_behind_it_and_are_level_inside() {
         let profile = FilmProfile::default();
-        let at = |radii: f32| profile.height(radii);
-        assert_eq!(at(0.0), 0.25 * 1.5);
-        assert_eq!(at(0.45), 1.0);
-        assert_eq!(at(2.0), 1.0);
-        assert!(at(0.15) > 1.25 && at(0.05) < at(0.1), "{}", at(0.15));
-        let most = (0..1000).map(|i| at(i as f32 / 1000.0)).fold(0.0, f32::max);
+        assert_eq!([0.0, 0.45, 2.0].map(|radii| profile.height(radii)), [0.25 * 1.5, 1.0, 1.0]);
+        let [first, second, third] = [0.05, 0.1, 0.15].map(|radii| profile.height(radii));
+        assert!(third > 1.25 && first < second, "{third}");
+        let most = (0..1000).map(|i| profile.height(i as f32 / 1000.0)).fold(0.0, f32::max);
         assert!(most <= profile.most() && most > 1.2, "{most}");
         let wide = FilmProfile { rim: 1.0, edge: 0.0, ..profile };
         assert!(wide.height(0.0) < 0.04 && wide.height(1.0) == 1.0, "{}", wide.height(0.0));
@@ -527,10 +526,12 @@ mod tests {
             let random = &mut ChaCha8Rng::seed_from_u64(11);
             let count = 96;
             let side = CELL / 8.0;
-            let mut within =
-                |square: usize| (square as f32 + random.random_range(0.0_f32..1.0)) * side;
             let places: Vec<Vec3> = (0..count * count)
-                .map(|at| Vec3::new(within(at % count), within(at / count), 0.0))
+                .map(|at: usize| {
+                    let [x, y] = [at % count, at / count]
+                        .map(|square| (square as f32 + random.random_range(0.0_f32..1.0)) * side);
+                    Vec3::new(x, y, 0.0)
+                })
                 .collect();
             let normals = vec![Vec3::Z; places.len()];
             let areas = vec![side * side; places.len()];
@@ -640,10 +641,9 @@ mod tests {
         for at in 0..900 {
             let place =
                 Vec3::new(1.2 + 0.05 * (at % 30) as f32, 1.2 + 0.05 * (at / 30) as f32, 0.0);
-            let one = |i: usize| {
+            let [first, second] = [0, 1].map(|i: usize| {
                 FilmSum { films: &films[i..=i], insides: &insides[i..=i] }.at(place, Vec3::Z).0
-            };
-            let [first, second] = [one(0), one(1)];
+            });
             let sum: [i32; 9] = std::array::from_fn(|slot| first[slot] + second[slot]);
             assert_eq!(both.at(place, Vec3::Z).0, sum);
             shared += usize::from(first[0] > 0 && second[1] > 0);

@@ -128,10 +128,12 @@ struct FaceLight {
 impl Faces<'_> {
     fn light(&self, front: Fragment) -> (usize, FaceLight) {
         let triangle = &self.surfaces.triangles[front.triangle as usize];
-        let between = |[a, b, c]: [Vec3; 3]| a + (b - a) * front.second + (c - a) * front.third;
         let corners = triangle.corners.map(|corner| corner as usize);
-        let normal = between(corners.map(|corner| self.normals[corner])).normalize_or_zero();
-        let place = between(corners.map(|corner| Vec3::from(self.surfaces.vertices[corner])));
+        let normals = corners.map(|corner| self.normals[corner]);
+        let places = corners.map(|corner| Vec3::from(self.surfaces.vertices[corner]));
+        let [normal, place] = [normals, places]
+            .map(|[a, b, c]: [Vec3; 3]| a + (b - a) * front.second + (c - a) * front.third);
+        let normal = normal.normalize_or_zero();
         let to_eye = (self.camera.eye - place).normalize_or_zero();
         // The lamp stands to the upper left behind the eye.
         let [right, up, back] = self.camera.axes();

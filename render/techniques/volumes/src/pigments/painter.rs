@@ -265,13 +265,13 @@ struct Row<'a> {
 impl<'a> Row<'a> {
     fn of(drawing: &'a Drawing<'_>, y: usize) -> Self {
         let width = drawing.color.width();
-        let grey =
-            |field: Option<&'a Field<f32>>| field.map_or(&[][..], |one| one.row(y, 0, width));
+        let [cover, ink, tint] = [drawing.cover, drawing.ink, drawing.tint]
+            .map(|field| field.map_or(&[][..], |one| one.row(y, 0, width)));
         Self {
             color: drawing.color.row(y, 0, width),
-            cover: grey(drawing.cover),
-            ink: grey(drawing.ink),
-            tint: grey(drawing.tint),
+            cover,
+            ink,
+            tint,
             films: drawing.films.map_or(&[][..], |films| films.row(y, 0, width)),
         }
     }

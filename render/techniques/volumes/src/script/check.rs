@@ -176,7 +176,6 @@ impl Script {
     fn check_recipe(&self, table: &KeyPath, recipe: &BTreeMap<String, f64>) -> Checked {
         let key = table.key("recipe");
         let letters: Vec<&str> = self.palette.keys().map(String::as_str).collect();
-        let example = || format!("recipe = {{ {} = 1 }}", letters.first().unwrap_or(&"B"));
         for (letter, &part) in recipe {
             if !self.palette.contains_key(letter) {
                 let hint = match letters.is_empty() {
@@ -187,12 +186,13 @@ impl Script {
             }
             check_range(&key.key(letter), part, [0.0, 1e6])?;
         }
+        let example = format!("recipe = {{ {} = 1 }}", letters.first().unwrap_or(&"B"));
         if recipe.is_empty() && !letters.is_empty() {
             let wanted = "letters of [palette] with their parts";
-            return Err(Fault::new(&key, wanted, "nothing", example()));
+            return Err(Fault::new(&key, wanted, "nothing", example));
         }
         if !recipe.is_empty() && recipe.values().sum::<f64>() <= 0.0 {
-            return Err(Fault::new(&key, "a part above 0", "only 0", example()));
+            return Err(Fault::new(&key, "a part above 0", "only 0", example));
         }
         Ok(())
     }

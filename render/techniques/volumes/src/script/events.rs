@@ -37,7 +37,6 @@ impl Script {
     /// then as in the script. First [`Script::check`] the script.
     #[must_use]
     pub fn events(&self) -> Vec<Event> {
-        let region = |name: &Option<String>| self.region_index(name.as_deref()).unwrap_or(0);
         let mut events = Vec::new();
         let mut add = |name: &str, index: usize, [from, duration]: [f64; 2], action: Action| {
             let start = steps_of(from);
@@ -50,7 +49,7 @@ impl Script {
                 radius: table.radius,
                 detail: table.detail,
                 recipe: table.recipe.clone(),
-                region: region(&table.region),
+                region: self.region_index(table.region.as_deref()).unwrap_or(0),
             };
             add("volume", index, [table.from_s, 0.0], Action::Volume(volume));
         }
@@ -59,7 +58,7 @@ impl Script {
                 place: place(table.at, table.picked, &table.path),
                 quantity: quantity(table.amount_mm3, table.rate_mm3_s),
                 recipe: table.recipe.clone(),
-                region: region(&table.region),
+                region: self.region_index(table.region.as_deref()).unwrap_or(0),
             };
             add("pour", index, [table.from_s, table.for_s], Action::Pour(pour));
         }

@@ -299,12 +299,9 @@ fn camera(camera: &CameraTable) -> CameraTable {
 }
 
 fn region(region: &RegionTable) -> RegionTable {
-    let list = |list: &Vec<f64>| list.iter().map(|&value| six(value)).collect();
-    RegionTable {
-        shells: region.shells.as_ref().map(list),
-        tint: region.tint.as_ref().map(list),
-        ..region.clone()
-    }
+    let [shells, tint] = [&region.shells, &region.tint]
+        .map(|list| Some(list.as_ref()?.iter().map(|&value| six(value)).collect()));
+    RegionTable { shells, tint, ..region.clone() }
 }
 
 fn keep(keep: &KeepTable) -> KeepTable {

@@ -150,10 +150,10 @@ fn a_recording_plays_the_same_events() {
     let recorded = recorder.script(720);
     assert_eq!((recorded.seconds, recorded.keeps.len()), (6.0, 3));
     let played = script(&recorded.to_text().unwrap()).events();
-    let plain = |events: &[Event]| -> Vec<_> {
-        events.iter().map(|event| (event.start, event.end, event.action.clone())).collect()
-    };
-    assert_eq!(plain(&played), plain(&events));
+    let [played, events] = [played, events].map(|events: Vec<Event>| {
+        events.into_iter().map(|event| (event.start, event.end, event.action)).collect::<Vec<_>>()
+    });
+    assert_eq!(played, events);
 }
 
 #[test]

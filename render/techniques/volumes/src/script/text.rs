@@ -94,16 +94,16 @@ fn parsed<'t>(name: &'t str, text: &'t str) -> Result<(Script, Source<'t>), Scri
 /// We check format and version before anything else, because a newer version may have other keys.
 fn check_format(name: &str, source: &Source<'_>) -> Result<(), ScriptError> {
     let file = name.to_owned();
-    let line = |key: &str| source.line(&KeyPath::of(key)).max(1);
     let found = source.value_of("format").unwrap_or("nothing").to_owned();
     if found.trim_matches(['"', '\'']) != "paint-volumes" {
-        return Err(ScriptError::Format { file, line: line("format"), found });
+        let line = source.line(&KeyPath::of("format")).max(1);
+        return Err(ScriptError::Format { file, line, found });
     }
     let newest = FormatVersion::NUMBER;
     match source.value_of("version") {
         Some(found) if found.parse() != Ok(newest) => Err(ScriptError::Version {
             file,
-            line: line("version"),
+            line: source.line(&KeyPath::of("version")).max(1),
             found: found.to_owned(),
             newest,
         }),

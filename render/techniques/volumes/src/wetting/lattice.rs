@@ -67,8 +67,8 @@ impl Lattice {
     /// Coordinates of the cell with this [`Lattice::key`].
     #[must_use]
     pub fn coordinates_of(key: u64) -> [i32; 3] {
-        let value = |shift: u32| ((key >> shift) & ((1 << BITS) - 1)) as i32 - (1 << (BITS - 1));
-        [value(0), value(BITS), value(2 * BITS)]
+        [0, BITS, 2 * BITS]
+            .map(|shift: u32| ((key >> shift) & ((1 << BITS) - 1)) as i32 - (1 << (BITS - 1)))
     }
 }
 
@@ -245,10 +245,8 @@ mod tests {
     fn the_cells_of_every_point_of_a_triangle_are_entered_and_no_others() {
         let random = &mut ChaCha8Rng::seed_from_u64(1);
         for _ in 0..50 {
-            let corners = [(); 3].map(|()| {
-                let mut value = || random.random_range(-3.0..3.0);
-                DVec3::new(value(), value(), value())
-            });
+            let corners =
+                [(); 3].map(|()| DVec3::from([(); 3].map(|()| random.random_range(-3.0_f64..3.0))));
             let mut found = Vec::new();
             entered(corners, &mut found);
             let mut hit: Vec<[i32; 3]> = Vec::new();

@@ -120,15 +120,15 @@ impl Pieces {
             let from = order.partition_point(|entry| entry.0 < key);
             let to = from + order[from..].partition_point(|entry| entry.0 == key);
             let inside = &order[from..to];
-            let root = |entry: u32| root_of(roots, entry);
-            let single = inside.iter().all(|entry| root(entry.1) == root(inside[0].1));
+            let single =
+                inside.iter().all(|entry| root_of(roots, entry.1) == root_of(roots, inside[0].1));
             let mut found: Vec<(u32, u32)> = Vec::new();
             for sample in own.filter(|_| !single) {
                 let Some(entry) = self.entry_of(samples, sample) else { continue };
-                let one = root(entry as u32);
+                let one = root_of(roots, entry as u32);
                 let place = samples.places[sample];
                 for &(_, entry, triangle) in inside {
-                    let other = root(entry);
+                    let other = root_of(roots, entry);
                     let pair = (one.min(other), one.max(other));
                     if one == other || found.contains(&pair) {
                         continue;
@@ -217,12 +217,11 @@ fn entries(
     places: &[DVec3],
     cell: f32,
 ) -> Result<(Vec<u32>, Vec<[i32; 3]>), WettingError> {
-    let at =
-        |triangle: usize| mesh.triangles[triangle].corners.map(|corner| places[corner as usize]);
+    let all = mesh.triangles.iter().map(|own| own.corners.map(|corner| places[corner as usize]));
     fn length([a, b, c]: [DVec3; 3]) -> f64 {
         a.distance(b).max(b.distance(c)).max(c.distance(a))
     }
-    let most = (0..mesh.triangles.len()).map(|triangle| 1.0 + length(at(triangle))).sum::<f64>();
+    let most = all.map(|corners| 1.0 + length(corners)).sum::<f64>();
     if most > MOST_ENTERED {
         let fits = rounded_up(cell * (most / MOST_ENTERED) as f32);
         return Err(WettingError::TooManyCells { cell, fits });
@@ -230,10 +229,11 @@ fn entries(
     fn flat([a, b, c]: [DVec3; 3]) -> bool {
         (b - a).cross(c - a).length_squared() == 0.0
     }
-    let lists = (0..mesh.triangles.len()).into_par_iter().map(|triangle| {
+    let lists = mesh.triangles.par_iter().map(|own| {
+        let corners = own.corners.map(|corner| places[corner as usize]);
         let mut found = Vec::new();
-        if !flat(at(triangle)) {
-            entered(at(triangle), &mut found);
+        if !flat(corners) {
+            entered(corners, &mut found);
             found.sort_unstable();
         }
         found
@@ -276,8 +276,8 @@ fn shared_edges(mesh: &Mesh, pieces: &Pieces) -> Vec<SharedEdge> {
     for (triangle, own) in (0_u32..).zip(&mesh.triangles) {
         if !pieces.entries_of(triangle as usize).is_empty() {
             let [a, b, c] = own.corners.map(|corner| first[corner as usize]);
-            let edge = |from: u32, to: u32| (from.min(to), from.max(to), triangle);
-            edges.extend([edge(a, b), edge(b, c), edge(c, a)]);
+            let ends = [(a, b), (b, c), (c, a)];
+            edges.extend(ends.map(|(from, to): (u32, u32)| (from.min(to), from.max(to), triangle)));
         }
     }
     edges.par_sort_unstable();
@@ -322,16 +322,16 @@ pub(super) fn unite(roots: &mut [u32], one: u32, other: u32) {
 
 fn distance(place: Vec3, [a, b, c]: [Vec3; 3]) -> f32 {
     let normal = (b - a).cross(c - a);
-    let inside = |from: Vec3, to: Vec3| (to - from).cross(place - from).dot(normal) >= 0.0;
-    if inside(a, b) && inside(b, c) && inside(c, a) {
+    let edges = [(a, b), (b, c), (c, a)];
+    if edges.iter().all(|&(from, to)| (to - from).cross(place - from).dot(normal) >= 0.0) {
         return (place - a).dot(normal).abs() / normal.length();
     }
-    let to_edge = |from: Vec3, to: Vec3| {
+    let [to_first, to_second, to_third] = edges.map(|(from, to): (Vec3, Vec3)| {
         let along = to - from;
         let share = (place - from).dot(along) / along.length_squared().max(f32::MIN_POSITIVE);
         place.distance(from + along * share.clamp(0.0, 1.0))
-    };
-    to_edge(a, b).min(to_edge(b, c)).min(to_edge(c, a))
+    });
+    to_first.min(to_second).min(to_third)
 }
 
 /// The bodies of a model, numbered from 1. Surface is one body if it is connected or touches.
@@ -360,12 +360,15 @@ impl Bodies {
                 *number = count;
             }
         }
-        let body = |piece: u32| numbers[root_of(&roots, piece) as usize];
         Self {
-            of_cells: of_cells.iter().map(|&piece| body(piece)).collect(),
+            of_cells: of_cells
+                .iter()
+                .map(|&piece| numbers[root_of(&roots, piece) as usize])
+                .collect(),
             of_triangles: (0..pieces.triangles())
                 .map(|triangle| {
-                    pieces.of_triangle(triangle).first().map_or(0, |&piece| body(piece))
+                    let first = pieces.of_triangle(triangle).first();
+                    first.map_or(0, |&piece| numbers[root_of(&roots, piece) as usize])
                 })
                 .collect(),
         }

@@ -90,11 +90,10 @@ impl SurfaceSamples {
             cells.resize(cells.len() + members.len(), cell as u32);
         }
         starts.push(cells.len() as u32);
-        let sample = |&(_, at): &(u64, u32)| found[at as usize];
-        let triangles: Vec<u32> = order.iter().map(|at| sample(at).0).collect();
+        let triangles: Vec<u32> = order.iter().map(|&(_, at)| found[at as usize].0).collect();
         Self {
             lattice,
-            places: order.iter().map(|at| sample(at).1).collect(),
+            places: order.iter().map(|&(_, at)| found[at as usize].1).collect(),
             normals: triangles.iter().map(|&triangle| normal(mesh, triangle as usize)).collect(),
             areas: vec![area; triangles.len()],
             bodies: vec![0; triangles.len()],
@@ -230,8 +229,8 @@ fn spread(mesh: &Mesh, areas: &[f64], step: f64, seed: u64) -> Vec<(u32, Vec3)> 
 /// goes through halves of halves in an order in which neighbours touch (Sierpinski's curve). This
 /// makes every stretch of the path a compact piece.
 fn on_path(corners: [Vec3; 3], share: f64) -> Vec3 {
-    let squared = |i: usize| corners[i].distance_squared(corners[(i + 1) % 3]);
-    let longest = (1..3).fold(0, |most, i| if squared(i) > squared(most) { i } else { most });
+    let squared = [0, 1, 2].map(|i: usize| corners[i].distance_squared(corners[(i + 1) % 3]));
+    let longest = (1..3).fold(0, |most, i| if squared[i] > squared[most] { i } else { most });
     let [mut start, mut end, mut apex] = [0, 1, 2].map(|i| corners[(longest + i) % 3]);
     let mut bits = (share * (1_u64 << HALVINGS) as f64) as u64;
     bits = bits.min((1 << HALVINGS) - 1);

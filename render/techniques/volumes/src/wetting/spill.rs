@@ -64,7 +64,6 @@ impl Spilling {
         let heights =
             (0..cells.len()).filter(|i| cells.capacities[*i] > 0).map(|i| cells.centers[i].y);
         let lowest = heights.fold(f32::INFINITY, f32::min);
-        let rate = |axes: f32| (rate * ONE as f32 / axes) as u64;
         let lifts: Vec<u32> = (0..cells.len())
             .map(|i: usize| {
                 let height =
@@ -73,7 +72,7 @@ impl Spilling {
             })
             .collect();
         Ok(Self {
-            rates: [rate(1.0), rate(2.0), rate(3.0)],
+            rates: [1.0, 2.0, 3.0].map(|axes: f32| (rate * ONE as f32 / axes) as u64),
             uneven: lifts.iter().any(|lift| *lift > 0)
                 || cells
                     .capacities

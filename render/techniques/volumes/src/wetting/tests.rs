@@ -267,9 +267,10 @@ fn rates_and_slopes_out_of_range_are_refused() {
 fn links_do_not_depend_on_the_cut_into_triangles() {
     for turn in [Vec3::X, Vec3::new(0.8, 0.36, 0.48)] {
         let across = turn.cross(Vec3::new(0.1, -0.2, 0.97)).normalize();
-        let plane = |squares| sheet(squares, |u, v| (turn * u * 9.0 + across * v * 9.0).to_array());
-        let grids =
-            [1, 100].map(|squares| Grid::of(&plane(squares), 1.0, SAMPLES_PER_CELL, 1).unwrap());
+        let grids = [1, 100].map(|squares| {
+            let plane = sheet(squares, |u, v| (turn * u * 9.0 + across * v * 9.0).to_array());
+            Grid::of(&plane, 1.0, SAMPLES_PER_CELL, 1).unwrap()
+        });
         let cells = grids.each_ref().map(|grid: &Grid| {
             (0..grid.cells.len())
                 .map(|cell| {
@@ -282,7 +283,7 @@ fn links_do_not_depend_on_the_cut_into_triangles() {
         // A cell with a sliver of surface may have a sample of one cut and none of the other.
         let both: Vec<_> = cells[0].iter().filter(|at| cells[1].contains(at)).collect();
         assert!(both.len() * 20 > cells[0].len() * 19, "{} of {}", both.len(), cells[0].len());
-        let links = |which: usize| {
+        let [first, second] = [0, 1].map(|which: usize| {
             let of_cell = (0..cells[which].len()).flat_map(|cell| {
                 let graph = &grids[which].graph;
                 graph.links(cell).map(move |link| (cell, graph.others[link] as usize))
@@ -292,8 +293,8 @@ fn links_do_not_depend_on_the_cut_into_triangles() {
             links.retain(|ends| ends.iter().all(|end| both.contains(&end)));
             links.sort_unstable();
             links
-        };
-        assert_eq!(links(0), links(1));
+        });
+        assert_eq!(first, second);
         let grid = &grids[0];
         for (link, &back) in grid.graph.back.iter().enumerate() {
             assert_eq!(grid.graph.back[back as usize] as usize, link);

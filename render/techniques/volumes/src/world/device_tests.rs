@@ -123,22 +123,21 @@ struct Outline {
 fn outline(world: &World, from: Vec3) -> Outline {
     let insides: Vec<Inside> = world.volumes().iter().map(Inside::of).collect();
     let width = 12.0 / SIDE as f32;
-    let place = |at: usize| {
-        let along = |index: usize| (index as f32 + 0.5) * width - 6.0;
-        Vec3::new(along(at % SIDE), 0.0, along(at / SIDE))
-    };
-    let places = 0..SIDE * SIDE;
+    let places = (0..SIDE * SIDE).map(|at: usize| {
+        let [x, z] = [at % SIDE, at / SIDE].map(|index| (index as f32 + 0.5) * width - 6.0);
+        Vec3::new(x, 0.0, z)
+    });
+    let distances: Vec<f32> = places.clone().map(|place| place.distance(from)).collect();
     let wet: Vec<bool> =
-        places.clone().map(|at| insides.iter().any(|inside| inside.holds(place(at)))).collect();
+        places.map(|place| insides.iter().any(|inside| inside.holds(place))).collect();
     let area = wet.iter().filter(|wet| **wet).count();
     // We flood from the wet place nearest to the source.
-    let distance = |at: &usize| place(*at).distance(from);
-    let nearest = |is_wet: bool| {
-        let all = places.clone().filter(|at| wet[*at] == is_wet);
-        all.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
-    };
+    let [nearest, bare] = [true, false].map(|is_wet| {
+        let all = (0..wet.len()).filter(|at| wet[*at] == is_wet);
+        all.min_by(|a, b| distances[*a].total_cmp(&distances[*b])).unwrap()
+    });
     let mut joined = vec![false; wet.len()];
-    let mut waiting = vec![nearest(true)];
+    let mut waiting = vec![nearest];
     joined[waiting[0]] = true;
     while let Some(at) = waiting.pop() {
         for next in [at.wrapping_sub(1), at + 1, at.wrapping_sub(SIDE), at + SIDE] {
@@ -148,9 +147,10 @@ fn outline(world: &World, from: Vec3) -> Outline {
         }
     }
     let held = joined.iter().filter(|joined| **joined).count();
-    let farthest = places.clone().filter(|at| wet[*at]).map(|at| distance(&at)).fold(0.0, f32::max);
+    let of_wet = distances.iter().zip(&wet).filter(|(_, wet)| **wet);
+    let farthest = of_wet.map(|(distance, _)| *distance).fold(0.0, f32::max);
     let equal = f64::from(width) * (area as f64 / std::f64::consts::PI).sqrt();
-    let rim = [distance(&nearest(false)), farthest].map(|at| f64::from(at) / equal);
+    let rim = [distances[bare], farthest].map(|at| f64::from(at) / equal);
     let on_scene: u64 = world.tally().on_scene.iter().sum();
     let covered = on_scene as f64 * world.quantum_mm3() / 0.02;
     let wet_mm2 = area as f64 * f64::from(width * width);

@@ -340,15 +340,13 @@ impl World {
     pub(super) fn set_paint(&mut self, index: usize, paint: Cell) {
         let Some(cell) = self.volumes[index].cell.map(|cell| cell as usize) else { return };
         let capacity = self.grid.cells.capacities[cell].max(1) as f32;
+        let volume = &mut self.volumes[index];
         // We take the square. A ball that is as wide as its paint then ends where the paint of its
         // cell ends.
-        let filled = |paint: &Cell| {
+        let [before, now] = [volume.paint, paint].map(|paint: Cell| {
             let share = (paint.volume() as f32 / capacity).min(1.0);
             share * share
-        };
-        let volume = &mut self.volumes[index];
-        let before = filled(&volume.paint);
-        let now = filled(&paint);
+        });
         if now > before {
             let way = self.grid.cells.centers[cell] - volume.target_center;
             let share = if now < 1.0 { (now - before) / (1.0 - before) } else { 1.0 };

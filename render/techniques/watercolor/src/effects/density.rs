@@ -219,16 +219,17 @@ fn apply_density_on_gpu(
             more: [0; 2],
         };
         // All bindings need a buffer, even those that the kernel does not read.
-        let texture =
-            |i: usize| layers.get(i).map_or(color.buffer(), |layer| layer.texture.plane().buffer());
+        let [first, second, third, fourth] = [0, 1, 2, 3].map(|i: usize| {
+            layers.get(i).map_or(color.buffer(), |layer| layer.texture.plane().buffer())
+        });
         let result = gpu.plane(width, height)?;
         let buffers = [
             color.buffer(),
-            texture(0),
-            texture(1),
-            texture(2),
-            texture(3),
-            mask.map_or(texture(0), Plane::buffer),
+            first,
+            second,
+            third,
+            fourth,
+            mask.map_or(first, Plane::buffer),
             result.buffer(),
         ];
         gpu.dispatch(&DENSITY, &params, &buffers, (width, height));

@@ -129,12 +129,11 @@ impl pulp::WithSimd for Band<'_> {
             });
         }
         for (y, out) in edges.chunks_exact_mut(width).enumerate() {
-            let row = |y: usize| &blurred[y * width..][..width];
             let is_first = first + y == 0;
             let is_last = (first + y) as isize == last;
-            let above = row(y + usize::from(is_first));
-            let here = row(y + 1);
-            let below = row(y + 2 - usize::from(is_last));
+            let [above, here, below] =
+                [y + usize::from(is_first), y + 1, y + 2 - usize::from(is_last)]
+                    .map(|y: usize| &blurred[y * width..][..width]);
             out[0] = edge([here[0], here[1.min(width - 1)]], [above[0], below[0]]);
             let end = width - 1;
             out[end] = edge([here[end.max(1) - 1], here[end]], [above[end], below[end]]);

@@ -221,10 +221,9 @@ fn scanned(
     scale: f32,
 ) -> Result<Field<f32>, PaperTextureError> {
     let photograph = Photograph::open(Path::new(path))?;
-    let side =
-        |pixels: usize| ((pixels as f64 * f64::from(scale)).round() as usize).clamp(1, LARGEST);
-    let columns = side(photograph.size().0);
-    let rows = side(photograph.size().1);
+    let [columns, rows] = [photograph.size().0, photograph.size().1].map(|pixels: usize| {
+        ((pixels as f64 * f64::from(scale)).round() as usize).clamp(1, LARGEST)
+    });
     let weights = RgbSpace::Srgb.xyz_from_linear();
     let picture = photograph.on_canvas(columns, rows);
     let mut heights = Field::filled(width, height, 0.0);

@@ -73,14 +73,13 @@ impl Scene {
             let place = self.place(seen);
             let expected = solids.iter().filter(|solid| solid.holds(place)).count() as i32;
             let at = [pixel % self.size.0, pixel / self.size.0].map(|at| at as f64 + 0.5);
-            let undecided = || {
-                solids.iter().any(|solid| {
-                    solid.has_skin_at(place, 1e-3) || solid.has_outline_at(at.into(), 0.5, &view)
-                })
-            };
             let differs = count != expected;
-            let wrong = usize::from(differs && !undecided());
-            Found { samples: 1, most: expected, differ: usize::from(differs), wrong }
+            let wrong = differs
+                && !solids.iter().any(|solid: &Solid| {
+                    solid.has_skin_at(place, 1e-3) || solid.has_outline_at(at.into(), 0.5, &view)
+                });
+            let [differ, wrong] = [differs, wrong].map(usize::from);
+            Found { samples: 1, most: expected, differ, wrong }
         });
         found.reduce(Found::default, Found::and)
     }
@@ -110,10 +109,8 @@ pub(crate) fn wall(z: f32, half: f32, cells: usize) -> Mesh {
     }
     let triangles = (0..cells * cells).flat_map(|cell| {
         let [x, y] = [cell % cells, cell / cells];
-        let corner = |right: usize, up: usize| {
-            Vec3::new(at(x + right, cells, half), at(y + up, cells, half), z)
-        };
-        let [a, b, c, d] = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
+        let [a, b, c, d] = [[x, y], [x + 1, y], [x + 1, y + 1], [x, y + 1]]
+            .map(|[x, y]| Vec3::new(at(x, cells, half), at(y, cells, half), z));
         [[a, b, c], [a, c, d]]
     });
     mesh_of(&triangles.collect::<Vec<_>>())
@@ -138,18 +135,17 @@ impl Surfaces {
     /// `radius` says.
     pub(crate) fn add_star(&mut self, center: Vec3, radius: impl Fn(Vec3) -> f32) {
         let first = self.vertices.len() as u32;
-        let mut push = |direction: Vec3| {
-            self.vertices.push((center + direction * radius(direction)).to_array());
-        };
-        push(Vec3::Y);
+        let mut directions = vec![Vec3::Y];
         for ring in 1..RINGS {
             let (high, wide) = (PI * ring as f32 / RINGS as f32).sin_cos();
             for step in 0..AROUND {
                 let (x, z) = (TAU * step as f32 / AROUND as f32).sin_cos();
-                push(Vec3::new(x * high, wide, z * high));
+                directions.push(Vec3::new(x * high, wide, z * high));
             }
         }
-        push(Vec3::NEG_Y);
+        directions.push(Vec3::NEG_Y);
+        self.vertices
+            .extend(directions.iter().map(|&along| (center + along * radius(along)).to_array()));
         let last = first + 1 + (RINGS - 1) * AROUND;
         fn at(ring: u32, step: u32, first: u32, last: u32) -> u32 {
             match ring {
@@ -239,9 +235,9 @@ pub(super) struct Solid {
 impl Solid {
     pub(super) fn new(faces: impl Iterator<Item = [Vec3; 3]>) -> Self {
         let faces: Vec<_> = faces.map(|face| face.map(Vec3::as_dvec3)).collect();
-        let corners = || faces.iter().flatten().copied();
-        let low = corners().fold(DVec3::INFINITY, DVec3::min);
-        let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let corners = faces.iter().flatten().copied();
+        let low = corners.clone().fold(DVec3::INFINITY, DVec3::min);
+        let high = corners.fold(DVec3::NEG_INFINITY, DVec3::max);
         Self { faces, low, high }
     }
 

@@ -15,12 +15,11 @@ fn pictures_do_not_depend_on_the_number_of_threads() {
     scene.settings.picture.samples = 2;
     scene.styles = vec![style(&[1.0, 0.9, 0.8], &[0.0, 0.4, 0.7, 1.0])];
     let world = scene.poured();
-    let with = |threads: usize| {
+    let [one, two, eight] = [1, 2, 8].map(|threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| bits(&scene.painted(&world)))
-    };
-    let one = with(1);
-    assert!(one == with(2) && one == with(8));
+    });
+    assert!(one == two && one == eight);
 }
 
 #[test]
@@ -31,15 +30,13 @@ fn pictures_do_not_depend_on_the_order_of_volumes() {
     scene.settings.motion.kick = 0.0;
     let [low, high] = scene.mesh.bounds();
     let side = (high - low).max_element();
-    let own = |i: usize| {
-        let at = |by: usize| (i * by % 25) as f32 / 25.0;
-        let center = low + (high - low) * Vec3::new(at(7), at(11), at(3));
-        single(center, side * (0.06 + 0.1 * at(9)), (i % 2) as u16)
-    };
     let painted = |order: &[usize]| {
         let mut world = scene.world();
         for &i in order {
-            world.add_volume(&own(i)).unwrap();
+            let [x, y, z, wide] = [7, 11, 3, 9].map(|by: usize| (i * by % 25) as f32 / 25.0);
+            let center = low + (high - low) * Vec3::new(x, y, z);
+            let own = single(center, side * (0.06 + 0.1 * wide), (i % 2) as u16);
+            world.add_volume(&own).unwrap();
         }
         steps(&mut world, 30);
         bits(&scene.painted(&world))
@@ -74,15 +71,14 @@ fn a_full_grid_colours_all_that_is_seen() {
             scene.camera = framing.fit(&scene.mesh.positions);
             let plain = scene.plain();
             let seen = scene.seen();
-            let mut bare = |gate: f32| {
+            let bare = [-1.0, -0.2].map(|gate: f32| {
                 scene.settings.drawing.gate = gate;
                 let painted = scene.painted(&world);
                 let pixels = painted.values().iter().zip(plain.values()).zip(seen.values());
                 let shown = pixels.filter(|(_, seen)| seen.triangle != NO_TRIANGLE);
                 shown.filter(|((found, plain), _)| found[..3] != plain[..3]).count()
-            };
-            let found = [bare(-1.0), bare(-0.2)];
-            assert_eq!(found, [0, 0], "{} from {azimuth_deg}", shape.name());
+            });
+            assert_eq!(bare, [0, 0], "{} from {azimuth_deg}", shape.name());
         }
     }
 }
@@ -131,8 +127,8 @@ fn films_lie_on_the_surface_of_each_world() {
     let mut scene = Scene::still_life();
     scene.styles[0].inside = settings::Inside::Glaze;
     let [low, high] = scene.mesh.bounds();
-    let painter = || scene.painter().with_pigments(pigments()).unwrap();
-    let mut used = painter();
+    let [mut used, mut other] =
+        [(); 2].map(|()| scene.painter().with_pigments(pigments()).unwrap());
     let mut world = scene.poured();
     let paint = |painter: &mut VolumePainter, world: &World| {
         bits(&painter.paint(world, &scene.camera, SIZE).unwrap())
@@ -141,7 +137,7 @@ fn films_lie_on_the_surface_of_each_world() {
     world.keep(KeepIn::Above { point: (low + high) / 2.0, normal: Vec3::X }).unwrap();
     steps(&mut world, 30);
     let kept = paint(&mut used, &world);
-    assert!(kept != whole && kept == paint(&mut painter(), &world));
+    assert!(kept != whole && kept == paint(&mut other, &world));
 }
 
 #[test]
@@ -152,15 +148,13 @@ fn films_of_single_volumes_lie_on_all_that_they_hold() {
     scene.styles[0].inside = settings::Inside::Glaze;
     let mut painter = scene.painter().with_pigments(pigments()).unwrap();
     // We pour more on the upper plate than on the lower one, and see only the lower one.
-    let mut below = |recipe: Option<Recipe>| {
+    let [painted, bare] = [Some(Recipe::of_slot(0)), None].map(|recipe| {
         let mut world = scene.world();
         let own = Single { recipe, ..single(Vec3::new(0.0, 0.3, 0.0), 2.0, 0) };
         world.add_volume(&own).unwrap();
         steps(&mut world, 30);
         painter.paint(&world, &scene.camera, SIZE).unwrap()
-    };
-    let painted = below(Some(Recipe::of_slot(0)));
-    let bare = below(None);
+    });
     let differ = painted.values().iter().zip(bare.values()).filter(|(a, b)| a != b).count();
     assert!(differ > 100, "{differ}");
 }
