@@ -1,5 +1,5 @@
 //! Interpolation of regular data by rows of weights, and the natural cubic spline through values at
-//! irregular places.
+//! irregular wavelengths.
 //!
 //! An interpolated value is a weighted sum of at most six neighbours. We work with the weights, so
 //! that the same rows resample a spectrum and, transposed, reduce an observer to a coarse grid.
@@ -191,8 +191,8 @@ pub(crate) struct Spline<'a> {
 }
 
 impl<'a> Spline<'a> {
-    /// The spline through `values` at `places`. Pass as many of one as of the other, two or more,
-    /// with strictly rising places.
+    /// The spline through `values` at `places`. Pass two or more of each, in equal number. `places` must
+    /// rise strictly.
     pub(crate) fn through(places: &'a [f64], values: &'a [f64]) -> Self {
         let count = places.len();
         let width: Vec<f64> = places.windows(2).map(|pair| pair[1] - pair[0]).collect();
@@ -219,9 +219,9 @@ impl<'a> Spline<'a> {
 
     /// The value at `place`, which lies between the first and the last.
     ///
-    /// We let it leave the range of the four values around it by at most the width of this range.
-    /// Smooth values stay well within. Otherwise two readings of a noisy spectrum at almost one
-    /// place would make the curve swing near them.
+    /// We let the value leave the range of the four values around `place` by at most the width of this
+    /// range. Smooth curves stay well within. Without this limit, two readings of a noisy spectrum at almost
+    /// equal wavelengths would make the curve swing.
     pub(crate) fn at(&self, place: f64) -> f64 {
         let after = self.places.partition_point(|&p| p < place).clamp(1, self.places.len() - 1);
         let before = after - 1;

@@ -204,10 +204,11 @@ pub fn chosen_film(
 /// Number of fits that [`chosen_film`] makes: five models with five folds each.
 pub const CHOICE_FITS: usize = 5 * FOLDS;
 const FOLDS: usize = 5;
-/// We replace a model only if the other one's score is below this fraction of its own (chosen by eye).
+/// Another model replaces the current one only if its score is below this fraction of the current score
+/// (chosen by eye).
 const LEAST_GAIN: f64 = 0.97;
-/// We call S undetermined if less than this fraction of the information on it comes from the films (chosen
-/// by eye).
+/// We call S of a pigment undetermined if less than this fraction of the information on S comes from the
+/// films (chosen by eye).
 const HALF_KNOWN: f64 = 0.5;
 const FOLD_SEED: u64 = 2004;
 

@@ -1,4 +1,5 @@
-//! From swatches to a pigment library with its evidence. Call this if you have swatches already.
+//! From swatches to a pigment library with the evidence of its fit. Use this if you have a [`SwatchSet`],
+//! and [`crate::fit()`] if you have readings.
 
 use documents::{Task, hint::Explain};
 use spectra::optics::Surface;
@@ -145,8 +146,8 @@ pub(crate) fn solve(
     Ok(Solution { curves, deviations, state: None })
 }
 
-/// Observations of identified pigments only. We reduce their shares to these pigments, and return the
-/// pigments' places.
+/// Observations that contain identified pigments only, with the shares of these pigments. We also return
+/// the indices of the identified pigments.
 pub(crate) fn without(
     observations: &[Observation],
     unknown: &[Unidentified],

@@ -43,13 +43,13 @@ pub struct ComparedFilm {
 pub struct Comparison {
     /// Films in order of the file.
     pub films: Vec<ComparedFilm>,
-    /// Root mean square error of reflectance, over sure films.
+    /// Root mean square error of reflectance, over the films of [`Self::sure`].
     pub rms: f64,
-    /// Summary of the colour errors, over sure films.
+    /// Summary of the colour errors, over the films of [`Self::sure`].
     pub delta_e: Summary,
     /// Samples that we cannot compare, each with the names of pigments that the library lacks.
     pub absent: Vec<(String, Vec<String>)>,
-    /// Wavelengths of the readings. `None` if they are the library's.
+    /// Wavelengths of the readings before we resampled them. `None` if we did not.
     pub resampled_from: Option<Grid>,
 }
 
@@ -84,11 +84,11 @@ impl Comparison {
 pub struct Comparable {
     /// Samples with all pigments in the library, on the library's wavelengths.
     pub set: SwatchSet,
-    /// Place in the library of each pigment of `set`.
+    /// Index in the library of each pigment of `set`.
     pub in_library: Vec<PigmentId>,
     /// Samples that we cannot compare, each with the names of pigments that the library lacks.
     pub absent: Vec<(String, Vec<String>)>,
-    /// Wavelengths of the readings. `None` if they are the library's.
+    /// Wavelengths of the readings before we resampled them. `None` if we did not.
     pub resampled_from: Option<Grid>,
 }
 
@@ -314,7 +314,7 @@ fn resampled(set: SwatchSet, grid: Grid) -> Result<SwatchSet, InterpolateError> 
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum ComparisonError {
     /// Every sample contains a pigment that the library lacks.
-    #[error("every sample holds a pigment that the library has not; measured are `{}`", measured.join(", "))]
+    #[error("every sample contains a pigment that the library lacks; the measured pigments are `{}`", measured.join(", "))]
     #[hint("pigments of the library: {}", library.join(", "))]
     NothingInCommon {
         /// Names of the measured pigments.
@@ -323,7 +323,7 @@ pub enum ComparisonError {
         library: Vec<String>,
     },
     /// The readings do not cover the library's wavelengths.
-    #[error("the library stands on {library}, the readings on `{readings}`")]
+    #[error("the library has the wavelengths {library}, the readings have `{readings}`")]
     #[hint("fit a library from these readings, or measure the whole band")]
     Band {
         /// Wavelengths of the readings.

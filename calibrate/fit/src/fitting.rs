@@ -209,7 +209,8 @@ impl PreparedFit {
         &self.viewing
     }
 
-    /// Fits the library and reports the stages of the fit to `task`. The remarks are the fit's own.
+    /// Fits the library and reports the stages of the fit to `task`. The result has the remarks of this
+    /// fit, without [`Self::remarks`].
     ///
     /// ```
     /// use calibrate::{FitRequest, PreparedFit, Readings};
@@ -371,7 +372,7 @@ pub(crate) fn usual_below_readings(
     (surface, Some(remark.with_hint("state the surface with [saunderson=K1,K2]")))
 }
 
-/// Name and wavelength of the reading `least` of `set`.
+/// Sample and wavelength at which `set` has the reading `least`, in words.
 fn darkest(set: &SwatchSet, least: f64) -> String {
     for swatch in &set.swatches {
         for film in &swatch.films {

@@ -62,7 +62,7 @@ pub fn backing_from_text(
 /// A text that gives no ground.
 #[derive(Debug, thiserror::Error, Explain)]
 pub enum BackingTextError {
-    /// The text is not a reflectance and names no file. A program adds the key of the setting.
+    /// The text is neither a reflectance nor the name of an existing file.
     #[error("a ground {0}")]
     #[hint(inner)]
     Text(#[source] RequestError),

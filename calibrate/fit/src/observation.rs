@@ -21,7 +21,8 @@ pub const HIDING_DIFFERENCE: f64 = 0.05;
 pub(crate) const LEAST_CONTRAST: f64 = 0.05;
 /// A gauge cannot tell apart two thicknesses with this relative difference (chosen by eye).
 const SAME_THICKNESS: f64 = 0.05;
-/// Above this internal reflectance we refuse a reading. Below it we read it as white (chosen by eye).
+/// A reading with an internal reflectance from 1 to this value counts as white. We refuse a greater one
+/// (chosen by eye).
 const ABOVE_WHITE: f64 = 1.05;
 
 /// Whether we computed K/S of a swatch from two backings, or assumed that the film hides.
@@ -300,7 +301,7 @@ fn count(swatch: &Swatch, condition: impl Fn(f64) -> bool) -> usize {
 /// A film may be darker over the brighter card by this reflectance, because two readings have errors. For
 /// the Van Gogh oils we found 0.013 at most.
 const READING_ERROR: f64 = 0.02;
-/// We take this many standard deviations of repeated readings for chance.
+/// A film may also be darker by this many standard deviations of repeated readings.
 const CHANCE: f64 = 3.0;
 
 /// Refuses films that are darker over the brighter of two cards, which no film of paint can be.
@@ -361,7 +362,8 @@ mod tests {
     use crate::request::FitRequest;
     use documents::hint::Explain;
 
-    /// Thin films of a white and a red over two cards. The films of sample b have the names in `b`.
+    /// Thin films of a white and a red over two cards. The films of sample b lie on the backings named in
+    /// `b`.
     fn thin(b: [&str; 2]) -> Readings {
         let text = format!(
             "sample,film,backing,White,Red,400,500,600,700\n\

@@ -367,7 +367,7 @@ fn large_csv(
     Ok(Some((table, input, remarks)))
 }
 
-/// Remarks about one file: `summary` with unit and grid, and the table's own as warnings.
+/// Remarks about one file: `summary` with unit and grid, then the remarks of the table as warnings.
 fn remarks(summary: &str, table: &MeasurementTable) -> Vec<Remark> {
     let unit = match table.scale {
         Scale::Percent => "percent",
@@ -451,8 +451,8 @@ pub enum ReadingsError {
     /// White, dark or tile cannot be read.
     #[error(transparent)]
     References(#[from] ReferenceFilesError),
-    /// Counts and white do not make a reflectance.
-    #[error("{file}: cannot be set against the white of {white}")]
+    /// The reflectance of a sample cannot be computed from its counts and the white.
+    #[error("{file}: cannot be divided by the white of {white}")]
     #[hint(inner)]
     Referencing {
         /// File of the samples.

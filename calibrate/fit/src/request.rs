@@ -22,10 +22,10 @@ use crate::observation::BelowSurface;
 /// assert!(request.reference.is_none());
 /// ```
 ///
-/// Absolute amounts always take the method `refined`, and no reference. The surface chooses itself if you state
-/// none: k2 = 0.6, and k1 = 0.03 or less where a reading is lower; for absolute amounts k1 = 0 and the k2 that
-/// predicts unseen films best. K and S do not depend on the light and the observer, which only set the colour
-/// errors.
+/// Absolute amounts always take the method `refined`, and no reference. If you state no surface, we take k2
+/// = 0.6, and k1 = 0.03, or less if a reading is lower. For absolute amounts we take k1 = 0 and the k2 that
+/// predicts unseen films best. K and S do not depend on the light and the observer, which only set the
+/// colour errors.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(description = "Options of a fit")]

@@ -32,8 +32,8 @@ pub struct LeftOutMixture {
     pub predicted: Vec<f64>,
 }
 
-/// Measured and predicted reflectances of mixtures that we left out of a fit in turn. They show what a
-/// library does not know of mixtures.
+/// Measured and predicted reflectances of mixtures that we left out of a fit in turn. They show how
+/// far a library's predictions of mixtures err.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Residuals {
@@ -251,7 +251,7 @@ pub enum ResidualsError {
         what: String,
     },
     /// The residuals do not cover the library's wavelengths.
-    #[error("the residuals are known on {found}, the library needs {needed}")]
+    #[error("the residuals have the wavelengths {found}, the library needs {needed}")]
     #[hint(
         "take the residuals of the readings from which the library was fitted, or state [model_error=0.1]"
     )]

@@ -1,6 +1,7 @@
 //! Quadratures with effective K and S: `cargo bench -p impasto-pigment --bench quadrature`.
 //!
-//! We allow 2 s on 2 cores for a library of 60 pigments, with reading and the test films of the verb.
+//! We allow 2 s on 2 cores for a library of 60 pigments, which includes reading the library and
+//! testing the result on films.
 
 use divan::{Bencher, black_box};
 use documents::Task;

@@ -294,7 +294,7 @@ pub enum BackingError {
     },
     /// The spectrum has no wavelength in common with the library.
     #[error("the ground is measured from {start_nm} to {end_nm} nm only")]
-    #[hint("the library stands on {wanted}")]
+    #[hint("the library has the wavelengths {wanted}")]
     Band {
         /// First wavelength of the spectrum in nm.
         start_nm: f64,

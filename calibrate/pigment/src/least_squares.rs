@@ -34,7 +34,7 @@ impl NormalEquations {
         Self { cost: 0.0, gradient: DVector::zeros(count), matrix: DMatrix::zeros(count, count) }
     }
 
-    /// Adds one residual. Pass its derivatives over all parameters.
+    /// Adds one residual. Pass its derivatives with respect to all parameters.
     pub(crate) fn add(&mut self, residual: f64, derivatives: &[f64], weight: f64) {
         self.cost += 0.5 * weight * residual * residual;
         let count = derivatives.len();
@@ -55,7 +55,7 @@ impl NormalEquations {
     }
 }
 
-/// Groups of three residuals that depend on few of the parameters, in runs of neighbours.
+/// Groups of three residuals. Each group depends on few parameters, which we store as ranges of indices.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct SparseRows {
     groups: Vec<Group>,
@@ -72,7 +72,8 @@ struct Group {
 }
 
 impl SparseRows {
-    /// Adds three residuals with their derivatives over the parameters of `runs`, which rise.
+    /// Adds three residuals with their derivatives with respect to the parameters of `runs`, ranges of
+    /// indices in rising order.
     pub(crate) fn push(
         &mut self,
         residuals: [f64; 3],
@@ -190,7 +191,8 @@ pub(crate) struct Minimum {
 }
 
 /// Minimises from `start` within `lower..=upper`. Pass `build`, which returns the normal equations at a
-/// point, and `cost`, which returns the cost alone. If you cancel `task`, this ends early, where it is.
+/// point, and `cost`, which returns the cost alone. If you cancel `task`, this ends early and returns the
+/// point that it has reached.
 pub(crate) fn minimise(
     start: DVector<f64>,
     (lower, upper): (&DVector<f64>, &DVector<f64>),
@@ -246,8 +248,8 @@ pub(crate) fn minimise(
     Minimum { point, cost: equations.cost }
 }
 
-/// Solves (A + damping D) step = -gradient for the parameters that we do not hold. D is the diagonal of A,
-/// and we keep it away from zero.
+/// Solves (A + damping D) step = -gradient for the parameters that are not `held` at a bound. D is the
+/// diagonal of A, and we keep it away from zero.
 fn damped_step(
     equations: &NormalEquations,
     held: &[bool],
@@ -295,8 +297,7 @@ const LEAST_STEP: f64 = 1e-9;
 /// We end the descent where a step lowers the cost by less than this fraction. We chose it by eye.
 const LEAST_DECREASE: f64 = 1e-6;
 
-/// Half a sum of squares at one point, with its gradient over the unknowns and the Gauss-Newton
-/// matrix.
+/// Half a sum of squares at one point, with its gradient and the Gauss-Newton matrix.
 #[derive(Debug, Clone, Copy)]
 pub struct Cost {
     /// Half the sum of squared residuals.
@@ -375,12 +376,12 @@ pub const MAX_PIGMENTS: usize = 8;
 /// thickness.
 pub const UNKNOWNS: usize = MAX_PIGMENTS + 1;
 
-/// Bounds of each unknown. The first `shares` unknowns keep their sum.
+/// Bounds of each unknown. The sum of the first `shares` unknowns is constant.
 #[derive(Debug, Clone, Copy)]
 pub struct Bounds {
     /// Number of unknowns, up to [`UNKNOWNS`].
     pub count: usize,
-    /// Number of unknowns, from the first, that keep their sum.
+    /// Number of unknowns at the beginning that have a constant sum.
     pub shares: usize,
     /// Lower bound of each unknown.
     pub lower: [f64; UNKNOWNS],
@@ -436,7 +437,8 @@ pub(super) fn bounded_step(
     step
 }
 
-/// Minimum over the unknowns that are not held, and Lagrange's multiplier for the sum of shares.
+/// Step to the minimum over the unknowns that are not `held` at a bound, and Lagrange's multiplier for the
+/// sum of shares.
 fn free_step(
     matrix: &[[f64; UNKNOWNS]; UNKNOWNS],
     slope: &[f64; UNKNOWNS],
@@ -484,7 +486,7 @@ fn free_step(
     (step, multiplier)
 }
 
-/// Index of the held unknown that would lower the model most if it were free.
+/// Index of the unknown at a bound that would lower the quadratic model most if we freed it.
 fn wrongly_held(
     matrix: &[[f64; UNKNOWNS]; UNKNOWNS],
     gradient: &[f64; UNKNOWNS],

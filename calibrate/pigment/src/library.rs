@@ -123,12 +123,12 @@ impl PigmentLibrary {
         }
     }
 
-    /// All pigments of the library by their place, in order.
+    /// Indices of all pigments of the library, in order.
     pub fn ids(&self) -> impl DoubleEndedIterator<Item = PigmentId> + Clone + use<> {
         (0..self.pigments.len()).map(PigmentId)
     }
 
-    /// Place of the reference white. `None` if the library has none.
+    /// Index of the reference white. `None` if the library has none.
     #[must_use]
     pub fn reference_id(&self) -> Option<PigmentId> {
         let name = self.reference.as_ref()?;
@@ -660,7 +660,7 @@ pub enum LibraryError {
     Figures {
         /// File name as the caller gave it.
         file: String,
-        /// Name of the pigment, empty where the fault is the library's.
+        /// Name of the pigment. This is empty if the fault concerns the whole library.
         pigment: String,
         /// Description of the fault.
         what: String,

@@ -1,9 +1,9 @@
-//! Pigments by their place in a list, recipes of them, and [`Curves`]: K and S over wavelength.
+//! Pigments by their index in a list, recipes of them, and [`Curves`]: K and S over wavelength.
 
 use spectra::Grid;
 use spectra::optics::{Surface, UnevenFilm, infinite_film};
 
-/// Place of a pigment in a library, or in the list of pigments of a set of swatches. We count from 0.
+/// Index of a pigment in a library, or in the list of pigments of a set of swatches. We count from 0.
 ///
 /// Use it only with the library or list that you got it from. See
 /// [`PigmentLibrary::find`](crate::library::PigmentLibrary::find).
@@ -11,7 +11,7 @@ use spectra::optics::{Surface, UnevenFilm, infinite_film};
 pub struct PigmentId(pub usize);
 
 impl PigmentId {
-    /// The place as an index, counted from 0.
+    /// The index as a number, counted from 0.
     #[must_use]
     pub fn index(self) -> usize {
         self.0

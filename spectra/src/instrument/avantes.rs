@@ -64,11 +64,11 @@ fn cells(line: &str) -> Vec<String> {
 
 const FORMAT: &str = "Avantes AvaSoft 7";
 
-/// Numbers between the coefficients and the pixels in version 60. The serial number stands there.
+/// Version 60 writes the serial number in this many 4-byte numbers, between the coefficients and the pixels.
 const SERIAL: usize = 9;
-/// Numbers of the serial number and the name, which version 70 writes before the coefficients.
+/// Version 70 writes serial number and name in this many 4-byte numbers, before the coefficients.
 const NAMES: usize = SERIAL + 64;
-/// Numbers between the pixels and the data in either version.
+/// Count of 4-byte numbers between the pixels and the data, in version 60 and in version 70.
 const SETTINGS: [usize; 2] = [2, 19];
 
 pub(super) fn is_avasoft7(bytes: &[u8]) -> bool {
@@ -130,8 +130,9 @@ const AVASOFT8_FORMAT: &str = "Avantes AvaSoft 8";
 /// Bytes between the averages and the comment of a measurement: corrections, triggers, times,
 /// temperatures and coefficients.
 const AVASOFT8_SETTINGS: usize = 25 + 8 + 20 + 40;
-/// Bytes of the comment, and of the group behind the tables.
+/// Length of the comment in bytes.
 const COMMENT: usize = 130;
+/// Length in bytes of the group behind the tables.
 const GROUP: usize = 10;
 
 pub(super) fn is_avasoft8(bytes: &[u8]) -> bool {

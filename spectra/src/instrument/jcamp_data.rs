@@ -7,8 +7,8 @@
 //!
 //! NTUPLES are tables with variables that are described in lists (Lampen, Hillig, Davies and Linscheid,
 //! "JCAMP-DX for mass spectrometry", Applied Spectroscopy 48 (1994) 1545). `##SYMBOL=` names the variables.
-//! `##FACTOR=`, `##FIRST=`, `##LAST=`, `##VAR_DIM=` and `##UNITS=` describe each in its place. Each `##PAGE=` has a
-//! `##DATA TABLE=` of two of them.
+//! `##FACTOR=`, `##FIRST=`, `##LAST=`, `##VAR_DIM=` and `##UNITS=` list one value for each variable, in the
+//! same order. Each `##PAGE=` has a `##DATA TABLE=` of two variables.
 
 use super::decode::{Decimal, number, required_number};
 use super::measured::InstrumentError;
@@ -331,8 +331,8 @@ pub(super) fn pages(file: &str, fields: &[Field<'_>]) -> Result<Vec<Page>, Instr
     Ok(found)
 }
 
-/// Places of the two variables in a form such as `(X++(R..R))` or `(XY..XY)`, and whether the file
-/// gives the first one only once for each row.
+/// Indices in `symbols` of the two variables of a form such as `(X++(R..R))` or `(XY..XY)`, and whether the
+/// file gives the first one only once for each row.
 fn variables(symbols: &[&str], form: &str) -> Option<(usize, usize, bool)> {
     let pairs = (0..symbols.len()).flat_map(|x| (0..symbols.len()).map(move |y| (x, y)));
     pairs.filter(|(x, y)| !symbols[*x].is_empty() && !symbols[*y].is_empty()).find_map(|(x, y)| {

@@ -278,8 +278,8 @@ struct SoundBand {
     left_out: Option<String>,
 }
 
-/// Evaluates the reflectance `at` the visible wavelengths of `sample`, then outwards on either side
-/// up to the first wavelength that fails.
+/// Evaluates the reflectance by `at`, first at the visible wavelengths of `sample`, then outwards
+/// on either side up to the first wavelength that fails.
 fn sound_band(
     sample: &MeasuredSpectrum,
     at: impl Fn(f64) -> Result<f64, ReferencingError>,

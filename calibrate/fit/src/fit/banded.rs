@@ -130,7 +130,7 @@ impl Spare {
         Banded { columns, ..*matrix }
     }
 
-    /// Keeps the memory of `matrix` for the next one.
+    /// Keeps the memory of `matrix` for the next matrix of its size.
     pub(crate) fn keep(&self, matrix: Banded) {
         if let Ok(mut kept) = self.0.lock() {
             kept.push(matrix.columns);
@@ -144,11 +144,11 @@ impl Spare {
     }
 }
 
-/// We eliminate this many columns together. They fit the nearest cache.
+/// We eliminate this many columns together. They fit the first-level cache.
 const PANEL: usize = 32;
-/// We use several threads for the columns of one panel from this reach on.
+/// We use several threads for one panel only if the band reaches at least this far below the diagonal.
 const LEAST_PARALLEL: usize = 100;
-/// Least number of pairs of columns of one task.
+/// One task updates at least this many pairs of columns.
 const PAIRS_OF_TASK: usize = 4;
 
 /// Cholesky factor L of A = L L'.
@@ -225,7 +225,8 @@ impl WithSimd for Elimination<'_> {
     }
 }
 
-/// Subtracts from a column, `offset` to the right of the factor's column `own`, their outer product.
+/// Subtracts the outer product of the factor's column `own` from the column `target`, which lies `offset`
+/// columns to its right.
 #[inline(always)]
 fn subtract(target: &mut [f64], own: &[f64], offset: usize) {
     let Some(factor) = own.get(offset).filter(|factor| **factor != 0.0) else { return };
@@ -234,8 +235,9 @@ fn subtract(target: &mut [f64], own: &[f64], offset: usize) {
     }
 }
 
-/// Subtracts from one column or two neighbours the outer products of all columns of a panel in their
-/// order. The first is `offset` to the left of the first target.
+/// Subtracts the outer products of all columns of a panel, in their order, from one column or from two
+/// neighbouring columns. The first column of the panel lies `offset` columns to the left of the first
+/// target.
 struct Update<'a> {
     targets: &'a mut [f64],
     panel: &'a [f64],
@@ -275,8 +277,8 @@ impl WithSimd for Update<'_> {
     }
 }
 
-/// Subtracts from two neighbouring columns the outer products of four columns, given from the row of the
-/// first target on.
+/// Subtracts the outer products of four columns from two neighbouring columns. Each of the four begins at
+/// the row of the first target.
 #[inline(always)]
 fn subtract_four(left: &mut [f64], right: &mut [f64], four: [&[f64]; 4]) {
     let of_left = four.map(|column| column[0]);
@@ -302,7 +304,7 @@ fn subtract_four(left: &mut [f64], right: &mut [f64], four: [&[f64]; 4]) {
     }
 }
 
-/// Right sides that [`BandedCholesky::solve_together`] solves at once.
+/// Number of right sides that [`BandedCholesky::solve_together`] solves at once.
 pub(crate) const TOGETHER: usize = 16;
 
 impl BandedCholesky {
@@ -327,8 +329,8 @@ impl BandedCholesky {
         x
     }
 
-    /// Solves A x = b for [`TOGETHER`] right sides at once. They stand side by side in each row. You get
-    /// the same solutions as from [`Self::solve`].
+    /// Solves A x = b for [`TOGETHER`] right sides at once. Each row of `x` holds one entry of every right
+    /// side. You get the same solutions as from [`Self::solve`].
     pub(crate) fn solve_together(&self, x: &mut [[f64; TOGETHER]]) {
         pulp::Arch::new().dispatch(Together { factor: &self.factor, x });
     }
@@ -374,7 +376,8 @@ impl BandedCholesky {
     /// Band of the inverse Z of A (Takahashi, Fagan and Chin 1973), in panels of columns from the last to
     /// the first.
     ///
-    /// Z L = L'^-1 gives the rows below a panel from the Z of these rows, and then the panel's own square.
+    /// The equation Z L = L'^-1 gives the columns of a panel: first their rows below the panel, from the
+    /// columns of Z that we know already, then the square block on the diagonal.
     pub(crate) fn inverse_band(&self) -> Banded {
         let size = self.factor.size;
         let reach = self.factor.reach;
@@ -401,7 +404,7 @@ impl BandedCholesky {
 struct Panel {
     first: usize,
     end: usize,
-    /// Rows of the panel's own columns. Past the end of the matrix they belong to the identity.
+    /// Square block on the diagonal. Beyond the end of the matrix it continues as the identity.
     own: [[f64; INVERSE_PANEL]; INVERSE_PANEL],
     /// Rows below the panel, 0 beyond the band.
     below: Vec<[f64; INVERSE_PANEL]>,
@@ -445,7 +448,8 @@ impl Panel {
     }
 }
 
-/// The inverse in row `row` below a panel, at the panel's columns, from all `rows` rows below it.
+/// Computes row `row` below a panel of the inverse, at the panel's columns. It depends on all `rows` rows
+/// below the panel.
 struct Row<'a> {
     panel: &'a Panel,
     inverse: &'a Banded,
@@ -478,7 +482,7 @@ impl WithSimd for Row<'_> {
     }
 }
 
-/// The inverse at a panel's own rows and columns, computed from the rows below.
+/// Computes the square block of the inverse on the diagonal of a panel, from the rows below it.
 struct Square<'a> {
     panel: &'a Panel,
     below: &'a [[f64; INVERSE_PANEL]],

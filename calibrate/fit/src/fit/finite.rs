@@ -10,16 +10,16 @@ use super::refined::{Refined, Refinement, refine};
 use pigment::{Curves, Recipe};
 /// We try this many values of S as a start, evenly spaced in their logarithm (chosen by eye).
 const STARTS: i32 = 44;
-/// We begin with this value of S.
+/// Smallest value of S that we try as a start.
 const LEAST_START: f64 = 0.012;
-/// The greatest of these values divided by the least.
+/// Largest value of S that we try as a start, divided by the smallest.
 const START_RANGE: f64 = 1000.0;
 /// K starts within this range (chosen by eye).
 const START_K: [f64; 2] = [4e-4, 120.0];
-/// We try this many values of K at the first wavelength (chosen by eye).
+/// We try this many values of K as a start, at the first wavelength only (chosen by eye).
 const COARSE_STEPS: i32 = 25;
-/// The robust loss of a start turns linear at this residual. It is a cube root of reflectance (0 to 1), so
-/// this is about 2 units of lightness.
+/// The robust loss of a start turns linear at this residual. Residuals are differences of cube roots of
+/// reflectance (0 to 1), so this is about 2 units of lightness.
 const START_KNEE: f64 = 0.02;
 /// We make at most this many Gauss-Newton steps for a start (chosen by eye).
 const START_STEPS: usize = 12;
@@ -173,8 +173,8 @@ impl Start<'_> {
         (absorption, scattering)
     }
 
-    /// Log K that fits a pigment's own films best at one wavelength for a given S, with its cost. We make
-    /// Gauss-Newton steps from `near`, or from the best of a coarse grid.
+    /// Log K that fits the films of this pigment alone best, at one wavelength for a given S, with its
+    /// cost. We make Gauss-Newton steps from `near`, or from the best of a coarse grid.
     fn best_absorption(
         &self,
         own: &[(usize, f64)],

@@ -1,7 +1,7 @@
 //! Models that predict films in a fit: films that hide, and films over a known backing.
 //!
-//! We also compute here what needs only the equations, before any fit: the colour term of the cost, the
-//! rank and condition of the equations, and the pigments that the mixtures determine.
+//! We also compute here what we need before any fit: the colour term of the cost, the rank and condition
+//! of the equations, and the pigments that the mixtures determine.
 //!
 //! The equations K = Q S of the mixtures are homogeneous except for the reference white. We know the S of a
 //! pigment only through mixtures that connect it, directly or through others, to this white.
@@ -20,7 +20,7 @@ pub(super) trait Forward: Sync {
     /// Reflectance of sample `index` at wavelength `at`.
     fn reflectance(&self, index: usize, at: usize, k: f64, s: f64) -> f64;
 
-    /// Reflectance with its derivatives over K and over S.
+    /// Reflectance with its derivatives with respect to K and S.
     fn linearised(&self, index: usize, at: usize, k: f64, s: f64) -> [f64; 3];
 }
 
@@ -73,15 +73,15 @@ pub(super) struct Data<'a, F> {
     pub(super) roots: Vec<Vec<f64>>,
     /// Standard deviation of repeated readings in measured reflectance, or 0 if unknown.
     pub(super) reading_sd: f64,
-    /// Places of each sample's unknowns within a wavelength.
+    /// For each sample: indices of its unknowns among the unknowns of one wavelength.
     places: Vec<Vec<usize>>,
 }
 
-/// A model linearised at a point: values, and slopes over the unknowns.
+/// A model linearised at a point: values, and derivatives with respect to the unknowns.
 pub(super) struct Linear {
     /// Predicted reflectance by sample and wavelength.
     pub(super) values: Vec<Vec<f64>>,
-    /// By sample: for each wavelength in turn, one slope for each place of this sample.
+    /// By sample: for each wavelength in turn, one derivative for each unknown of this sample.
     pub(super) slopes: Vec<Vec<f64>>,
 }
 
@@ -117,7 +117,7 @@ impl<'a, F: Forward> Data<'a, F> {
         Self { layout, forward, recipes, target, roots: roots.collect(), reading_sd, places }
     }
 
-    /// Normal matrix of the slopes at one wavelength, all samples having equal weight.
+    /// Normal matrix of the derivatives at one wavelength, with equal weights for all samples.
     pub(super) fn normal(&self, linear: &Linear, at: usize) -> DMatrix<f64> {
         let unknowns = self.layout.per_wavelength();
         let mut normal = DMatrix::zeros(unknowns, unknowns);
@@ -151,7 +151,7 @@ impl<'a, F: Forward> Data<'a, F> {
             .collect()
     }
 
-    /// Linearises the model at `curves`, with slopes over log K and log S.
+    /// Linearises the model at `curves`, with derivatives with respect to log K and log S.
     pub(super) fn linear(&self, curves: &CurveTable) -> Linear {
         let samples = (0..self.recipes.len()).into_par_iter();
         let (values, slopes) = samples.map(|index| self.linear_of_sample(curves, index)).unzip();
@@ -192,11 +192,11 @@ pub(super) struct ColorTerm<'a> {
     targets: Vec<(Lab, Matrix3)>,
 }
 
-/// Colour residual of one sample, with its slopes over reflectance.
+/// Colour residual of one sample, with its derivatives with respect to reflectance.
 pub(super) struct ColorResidual {
     /// Three components. Their length is the colour difference.
     pub(super) residual: [f64; 3],
-    /// By wavelength: derivatives of the components over reflectance.
+    /// By wavelength: derivatives of the components with respect to reflectance.
     pub(super) slopes: Vec<[f64; 3]>,
 }
 
@@ -260,9 +260,9 @@ pub struct Condition {
 /// We attribute eigenvalues of the normal matrix below this fraction of the largest to rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// Computes rank and condition of the derivatives of measured reflectance over log K and log S. We scale
-/// columns to length 1. A singular value below 3e-7 of the largest counts as 0, because rounding of the
-/// normal matrix ends there.
+/// Computes rank and condition of the derivatives of measured reflectance with respect to log K and log S.
+/// We scale columns to length 1. A singular value below 3e-7 of the largest counts as 0, because rounding
+/// of the normal matrix ends there.
 #[must_use]
 pub fn condition(problem: &Problem, curves: &[Curves]) -> Condition {
     let curves = CurveTable::off_zero(curves, [f64::NEG_INFINITY; 2]);
@@ -300,7 +300,7 @@ pub enum Unknown {
 /// A pigment that the data do not identify.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unidentified {
-    /// Place of the pigment in the list of pigments.
+    /// Index of the pigment in the list of pigments.
     pub pigment: PigmentId,
     /// Quantity that is not identified.
     pub unknown: Unknown,

@@ -21,7 +21,7 @@ const FIRST_DAMPING: f64 = 1e-2;
 const LEAST_DAMPING: f64 = 1e-8;
 /// We divide the damping by this after a step that lowers the cost (chosen by eye).
 const DAMPING_FALL: f64 = 5.0;
-/// We multiply the damping by this after a step that does not (chosen by eye).
+/// We multiply the damping by this after a step that does not lower the cost (chosen by eye).
 const DAMPING_RISE: f64 = 6.0;
 /// We try at most this many dampings for one step.
 const TRIALS: usize = 8;
@@ -29,7 +29,8 @@ const TRIALS: usize = 8;
 const LONGEST_STEP: f64 = 2.0;
 /// We add this to the diagonal, so that unknowns without data have a finite step.
 const DIAGONAL_FLOOR: f64 = 1e-9;
-/// Conjugate gradients stop at this squared relative residual, which is a thousandth of the start.
+/// Conjugate gradients stop if the squared residual is below this fraction of its first value. The
+/// residual is then below a thousandth of its first value.
 const GRADIENT_TOLERANCE: f64 = 1e-6;
 /// We make at most this many steps of conjugate gradients. The preconditioner needs about ten, so this
 /// limit is generous (chosen by eye).
@@ -39,7 +40,7 @@ const GRADIENT_STEPS: usize = 60;
 ///
 /// - spectral: rho(w (cbrt R - cbrt R_measured)), with the knee at 3 standard deviations
 /// - roughness: smoothness / 2 (second difference over wavelength)^2 of each log K and log S
-/// - ridge: [`RIDGE`] / 2 (log - start)^2, with a strength of its own for log S
+/// - ridge: [`RIDGE`] / 2 (log - start)^2, for log S with `scattering_ridge` instead
 /// - colour: strength x rho(CIEDE2000) of each sample
 ///
 /// where rho(r) = c^2 (sqrt(1 + (r/c)^2) - 1) is half a square near 0 and straight beyond the knee c.
@@ -54,7 +55,7 @@ pub(super) struct Objective<'a, F> {
     pub(super) scattering_ridge: f64,
     pub(super) color: Option<ColorPart<'a>>,
     pub(super) spare: Spare,
-    /// Ends a descent before its time.
+    /// Task that can cancel a descent.
     pub(super) task: &'a Task,
 }
 
@@ -170,7 +171,7 @@ impl<F: Forward> Objective<'_, F> {
         costs.collect()
     }
 
-    /// Places and values of the gradient of one sample's spectral term, where it is not 0.
+    /// Gradient of one sample's spectral term: index and value of each entry that is not 0.
     pub(super) fn gradient_of_sample(
         &self,
         linear: &Linear,
@@ -271,7 +272,7 @@ impl<F: Forward> Objective<'_, F> {
         Some(step)
     }
 
-    /// How strongly the unknown `place` is pulled towards its start.
+    /// How strongly the unknown with the index `place` is pulled towards its start.
     pub(super) fn ridge(&self, place: usize) -> f64 {
         let layout = self.data.layout;
         let is_scattering = place % layout.per_wavelength() >= layout.pigments;
@@ -407,7 +408,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 /// We assume at least this standard deviation of a residual, as a cube root of reflectance (chosen by eye).
 const LEAST_SD: f64 = 1e-4;
-/// Divide a standard deviation by the median absolute value to get this, for normal noise.
+/// Ratio of the standard deviation to the median absolute value, for normal noise.
 const SD_OVER_MEDIAN: f64 = 1.4826;
 /// We try this many ratios of the two kinds of noise besides 0, evenly spaced in their logarithm.
 const RATIOS: i32 = 25;
@@ -442,11 +443,13 @@ pub(super) struct Noise {
     roots: Vec<Vec<f64>>,
     /// By sample and wavelength: weight of a cube-root residual that makes it perceptually uniform.
     even: Vec<Vec<f64>>,
-    /// By sample and wavelength: the same weight for a residual in reflectance itself.
+    /// By sample and wavelength: weight that makes a residual of reflectance, not of its cube root,
+    /// perceptually uniform.
     slope: Vec<Vec<f64>>,
     median_slope: f64,
     /// Least standard deviation of a residual, from repeated readings. With few samples a fit may come
-    /// nearer to the readings than this. You would then think them too precise.
+    /// nearer to the readings than this. You would then think that the readings are more precise than they
+    /// are.
     least_sd: f64,
 }
 
@@ -506,8 +509,8 @@ impl Noise {
         (weights, sd)
     }
 
-    /// One over the standard deviation of each reading in measured reflectance, where both parts of the
-    /// noise are known.
+    /// One over the standard deviation of each reading in measured reflectance, for `noise` with two known
+    /// parts.
     pub(super) fn precision(&self, noise: ExpectedNoise) -> Vec<Vec<f64>> {
         let rows = self.slope.iter().map(|row| {
             let even = row.iter().map(|slope| noise.even * self.median_slope / slope);

@@ -131,7 +131,7 @@ pub enum FitError {
         /// Status of the solver.
         status: String,
     },
-    /// The fit was asked to end before its time.
+    /// The fit was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
@@ -166,11 +166,11 @@ fn clamped(curve: &[f64], least: f64) -> Vec<f64> {
 /// A solution may contain 0. We raise K and S to these values before we take logarithms.
 pub(crate) const OFF_ZERO: [f64; 2] = [1e-4, 1e-3];
 
-/// Bounds of log K and log S. A pigment with less than 1e-5 does not show, and we allow up to 1e4.
+/// Bounds of log K and log S, for K and S from 1e-5 to 1e4. A pigment with less than 1e-5 does not show.
 pub(super) const LOWER: f64 = -11.512_925_464_970_229;
 pub(super) const UPPER: f64 = 9.210_340_371_976_184;
 
-/// Places of the unknowns. For each wavelength we list log K of every pigment, then log S of every pigment
+/// Order of the unknowns. For each wavelength we list log K of every pigment, then log S of every pigment
 /// except the reference, which has S = 1. Absolute amounts have no reference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Layout {
@@ -188,7 +188,7 @@ impl Layout {
         self.per_wavelength() * self.wavelengths
     }
 
-    /// Place of log S of `pigment` within its wavelength, or `None` for the reference.
+    /// Index of log S of `pigment` among the unknowns of one wavelength, or `None` for the reference.
     pub(super) fn scattering(self, pigment: usize) -> Option<usize> {
         match self.reference {
             Some(reference) if pigment == reference => None,

@@ -14,8 +14,8 @@ use super::problem::{CurveTable, FitError, Problem};
 /// From this many unknowns on, we first try the minimum without bounds. With fewer the solver takes no
 /// time.
 const MANY: usize = 64;
-/// Pivot, on columns of length 1, below which mixtures leave a sum of pigments undetermined. The solver
-/// then gives us a value in the middle of all that serve alike.
+/// If a pivot of the equations (with columns of length 1) is below this, the mixtures do not determine
+/// every unknown. We then use the solver, which returns a value in the middle of all equally good ones.
 const LEAST_PIVOT: f64 = 1e-4;
 
 /// Fits K and S by the method `qp`. At each wavelength this minimises the sum over mixtures of (C K - Q C
@@ -58,9 +58,9 @@ pub(super) fn solve_all(
 }
 
 /// The program at one wavelength. Its unknowns are K of every pigment, followed by S of all but the
-/// reference. We multiply each by the length of its column, because Q spans four decades.
+/// reference. We multiply each unknown by the length of its column, because Q spans four decades.
 struct Program {
-    /// Places of the unknowns among K and S of all pigments.
+    /// Indices of the unknowns in the list of K, then S, of all pigments.
     free: Vec<usize>,
     reference: usize,
     /// One over the length of each column of K and S.
@@ -104,7 +104,7 @@ impl Program {
         Self { free, reference, scale, quadratic, linear }
     }
 
-    /// K and S of all pigments by the solver, at the wavelength `nm` in messages.
+    /// Solves for K and S of all pigments with the solver. Errors name the wavelength `nm`.
     fn solve(&self, nm: f64) -> Result<Vec<f64>, FitError> {
         let unknowns = self.free.len();
         let mut column_starts = vec![0];
@@ -142,7 +142,7 @@ impl Program {
     }
 
     /// K and S of all pigments at the minimum without bounds. If all are above 0, this is the solution.
-    /// `None` also if mixtures leave an unknown open.
+    /// Otherwise, and if the mixtures do not determine every unknown, you get `None`.
     fn solve_freely(&self) -> Option<Vec<f64>> {
         let factor = self.quadratic.clone().cholesky()?;
         let open = factor.l_dirty().diagonal().iter().any(|&pivot| pivot < LEAST_PIVOT);

@@ -23,8 +23,8 @@ const KNEE: f64 = 3.0;
 const COLOR_STRENGTH: f64 = 10.0;
 /// The colour loss turns linear at this many medians of all colour differences (chosen by eye).
 const COLOR_KNEE: f64 = 5.0;
-/// For this knee we assume at least this median of the colour differences, in CIEDE2000. It is about the
-/// repeatability of a good instrument.
+/// For the knee of the colour loss we assume at least this median of the colour differences, in CIEDE2000.
+/// It is about the repeatability of a good instrument.
 const LEAST_MEDIAN_COLOR: f64 = 0.3;
 /// We make at most this many steps in the colour stage, which starts near its minimum (chosen by eye).
 const COLOR_STEPS: usize = 12;
@@ -277,11 +277,11 @@ const LEAST: f64 = 1e-4;
 
 /// Standard deviations of K and S at the minimum of `objective`.
 ///
-/// We return the larger of two estimates. The first is the normal matrix with its priors, as if all
-/// residuals were independent. The second is the spread of the samples' own gradients, H^-1 (sum of g g')
-/// H^-1 with g the gradient of one sample over all wavelengths (Liang and Zeger 1986). The second one takes
-/// into account that a sample which you painted wrongly is wrong at every wavelength. But it is 0 where the
-/// few samples of a pigment are fitted exactly.
+/// We return the larger of two estimates. The first is the inverse of the normal matrix H with its priors,
+/// as if all residuals were independent. The second is the spread of the gradients of the samples, H^-1
+/// (sum of g g') H^-1 with g the gradient of one sample over all wavelengths (Liang and Zeger 1986). The
+/// second one takes into account that a sample which you painted wrongly is wrong at every wavelength. But
+/// it is 0 where the few samples of a pigment are fitted exactly.
 pub(super) fn standard_deviations<F: Forward>(
     objective: &Objective<'_, F>,
     unknowns: &[f64],
@@ -316,8 +316,8 @@ pub(super) fn standard_deviations<F: Forward>(
     CurveTable { absorption, scattering }
 }
 
-/// Sum over samples of the squared steps that their own gradients alone would make, by unknown. We add
-/// samples in their order, on any number of threads. The sum is incomplete if you cancel the fit.
+/// By unknown: sum over samples of the squared step that the gradient of this sample alone would cause. We
+/// add samples in their order, on any number of threads. The sum is incomplete if you cancel the fit.
 fn spread_of_gradients<F: Forward>(
     objective: &Objective<'_, F>,
     unknowns: &[f64],
@@ -357,9 +357,9 @@ fn spread_of_gradients<F: Forward>(
 /// By pigment: the fraction (0 to 1) of our information on its log S that comes from the data and not from
 /// the prior (median over wavelength).
 ///
-/// We compare the data's information on log S, with the pigment's own K unknown, with the ridge. Pass an
-/// `objective` without smoothness. Otherwise we would count the prior of one wavelength as data of its
-/// neighbours.
+/// We compare the ridge with the information of the data on log S, where K of the pigment is unknown too.
+/// Pass an `objective` without smoothness. Otherwise we would count the prior of one wavelength as data of
+/// its neighbours.
 pub(super) fn share_of_scattering_known<F: Forward>(
     objective: &Objective<'_, F>,
     unknowns: &[f64],
@@ -384,8 +384,8 @@ pub(super) fn share_of_scattering_known<F: Forward>(
 /// Standard deviations of K and S for a fit that has none of its own, by pigment and wavelength.
 ///
 /// We treat each wavelength by itself. The result is the variance of its residuals of measured reflectance
-/// times the inverse of the normal matrix of their derivatives over K and S. A value that no mixture
-/// determines gets a deviation of its own size or more. The S of the reference gets 0.
+/// times the inverse of the normal matrix of their derivatives with respect to K and S. A value that no
+/// mixture determines gets a deviation of its own size or more. The S of the reference gets 0.
 #[must_use]
 pub fn linear_deviations(problem: &Problem, curves: &[Curves]) -> Vec<Curves> {
     // The program may set a pigment to 0, where the slopes are not finite.
@@ -431,20 +431,20 @@ pub(crate) struct AssumedPaints {
     pub(crate) curves: Vec<Curves>,
 }
 
-/// Derivatives of the reflectances of mixtures over the unknowns of a fit (log K of every paint and log S
-/// of all except the reference), divided by the standard deviation of a reading.
+/// Derivatives of the reflectances of mixtures with respect to the unknowns of a fit (log K of every paint
+/// and log S of all except the reference), divided by the standard deviation of a reading.
 #[derive(Debug, Clone)]
 pub(crate) struct Slopes {
     layout: Layout,
-    /// Places of each mixture's unknowns within a wavelength.
+    /// For each mixture: indices of its unknowns among the unknowns of one wavelength.
     pub(crate) places: Vec<Vec<usize>>,
-    /// By mixture: for each wavelength in turn, one slope for each of its places.
+    /// By mixture: for each wavelength in turn, one derivative for each of its unknowns.
     pub(crate) slopes: Vec<Vec<f64>>,
 }
 
 impl Slopes {
-    /// Slopes of `recipes` as films that hide, under the noise model of the refinement. Recipes are lists
-    /// of paints with their shares.
+    /// Derivatives for `recipes` as films that hide, under the noise model of the refinement. Recipes are
+    /// lists of paints with their shares.
     pub(crate) fn of(
         paints: &AssumedPaints,
         recipes: Vec<Vec<(usize, f64)>>,
@@ -486,8 +486,8 @@ impl Slopes {
         self.layout.wavelengths
     }
 
-    /// Place of log S of `paint` within a wavelength, or `None` for the reference. The place of log K is
-    /// the paint's own number.
+    /// Index of log S of `paint` among the unknowns of one wavelength, or `None` for the reference. The
+    /// index of log K is the index of the paint.
     pub(crate) fn scattering(&self, paint: usize) -> Option<usize> {
         self.layout.scattering(paint)
     }

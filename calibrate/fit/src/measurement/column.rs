@@ -31,9 +31,10 @@ pub(super) enum TableKind {
     Recipes,
 }
 
-/// Reads a header row with its cells at `place`, and returns one meaning per column. If you pass
-/// `pigments`, only these headings name pigments. Otherwise every unknown heading does. We check that there
-/// is a column of names, that no name occurs twice and that wavelengths rise or fall throughout.
+/// Returns the meaning of each column of a header row. `place` tells errors where a header stands in the
+/// file. If you pass `pigments`, only these headings name pigments. Otherwise every unknown heading does.
+/// We check that there is a column of names, that no name occurs twice and that wavelengths rise or fall
+/// throughout.
 pub(super) fn columns(
     place: &dyn Fn(usize) -> CellPlace,
     headers: &[String],
@@ -151,8 +152,9 @@ fn has_word(heading: &str, word: &str) -> bool {
     words.into_iter().any(|found| found.eq_ignore_ascii_case(word))
 }
 
-/// Meaning of the header `name`, or `None` for a number outside the wavelengths at which you measure paint.
-/// `letters` says whether `R400` is a wavelength. Beside plain numbers it is a pigment.
+/// Meaning of the header `name`, or `None` for a number outside the wavelengths at which you measure
+/// paint. `letters` says whether `R400` is a wavelength. It is a pigment if other headers of the table are
+/// plain numbers.
 fn column(name: &str, letters: bool) -> Option<Column> {
     let lower = name.to_ascii_lowercase();
     match lower.as_str() {
@@ -234,9 +236,9 @@ const NO_PIGMENTS: [&str; 47] = [
     "filter",
 ];
 
-/// Headings of columns of names in lower case without spaces and signs, the most specific first. We
-/// use a later one only if a table has none of the earlier ones. The last ones are numbers of
-/// samples, and the word that stands above the names if all other columns are wavelengths.
+/// Headings of columns of names in lower case without spaces and signs, the most specific first. We use a
+/// later one only if a table has none of the earlier ones. The last ones are numbers of samples, and the
+/// word `wavelength`, which stands above the names in tables where all other columns are wavelengths.
 const NAMES: [&str; 19] = [
     "sample",
     "samplename",
@@ -262,7 +264,8 @@ const NAMES: [&str; 19] = [
 /// First of [`NAMES`] that names samples only where all other columns are wavelengths.
 const OVER_NAMES: &str = "wavelength";
 
-/// Place of a heading among those that name samples, 0 for the most specific. `None` for any other heading.
+/// Rank of a heading among the headings that name samples, 0 for the most specific. `None` for any other
+/// heading.
 pub(super) fn name_rank(heading: &str) -> Option<usize> {
     let letters = heading.chars().filter(|c| c.is_alphanumeric());
     let plain: String = letters.flat_map(char::to_lowercase).collect();
@@ -358,7 +361,8 @@ impl HeadingRow {
     }
 }
 
-/// How much a row looks like headings. `None` if it has no column for names, or only this column.
+/// Score of a row: the number of its wavelengths, or of its cells in a file of recipes. The row of
+/// headings has the highest. `None` if it has no column for names, or only this column.
 fn score(cells: &[String], kind: TableKind) -> Option<usize> {
     let names: Vec<&str> = cells.iter().map(String::as_str).collect();
     let wavelengths = names.iter().filter(|cell| is_wavelength_heading(cell)).count();
@@ -390,14 +394,14 @@ fn cells(line: &str, separator: u8) -> Vec<String> {
     cells
 }
 
-/// A heading. `400,5` is a wavelength where commas do not separate cells.
+/// A heading, with a decimal point for a decimal comma: `400,5` becomes `400.5`.
 pub(super) fn plain_heading(heading: &str) -> String {
     let pointed = heading.replace(',', ".");
     if pointed.parse::<f64>().is_ok() { pointed } else { heading.to_owned() }
 }
 
-/// Coordinates of colour as tables of instruments write them. We recognise them because they stand
-/// together.
+/// Coordinates of colour as tables of instruments write them. We recognise a coordinate only if the table
+/// has several of its row.
 const COORDINATES: [&[&str]; 6] = [
     &["L", "a", "b"],
     &["L", "C", "h"],
@@ -407,7 +411,8 @@ const COORDINATES: [&[&str]; 6] = [
     &["R", "G", "B"],
 ];
 
-/// Whether the heading at `index` is a coordinate of a colour, and another one stands beside it.
+/// Whether the heading at `index` is a coordinate of a colour space, and the table has others of this
+/// space.
 pub(super) fn is_coordinate(headings: &[String], index: usize) -> bool {
     let has = |name: &str| headings.iter().any(|heading| heading.trim() == name);
     let own = headings[index].trim();

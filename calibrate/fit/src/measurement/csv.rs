@@ -271,8 +271,8 @@ impl LargeCsv {
         })
     }
 
-    /// Passes the file on in pieces of whole rows. Each begins with the header. We add empty lines so that
-    /// rows have the same numbers as in the file.
+    /// Calls `read` with one piece of the file after another. Each piece is the header followed by whole
+    /// rows. We add empty lines so that rows have the same numbers as in the file.
     fn each_piece(
         &self,
         mut read: impl FnMut(&[u8]) -> Result<(), MeasurementError>,

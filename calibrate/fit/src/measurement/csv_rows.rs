@@ -19,7 +19,8 @@ use super::table::{Film, Reading, Scale, ScaleChoice};
 /// No reflectance is greater than this fraction. If you see a greater value, its unit is wrong.
 const LARGEST_REFLECTANCE: f64 = 2.0;
 
-/// The finite number in a cell. With decimal commas, a point may separate thousands.
+/// The finite number in a cell. With decimal commas, a cell with a point gives `None`, because the point
+/// may separate thousands.
 fn parsed(cell: &str, decimal_comma: bool) -> Option<f64> {
     let value = match decimal_comma {
         true if cell.contains('.') => None,
@@ -29,7 +30,7 @@ fn parsed(cell: &str, decimal_comma: bool) -> Option<f64> {
     value.filter(|value| value.is_finite())
 }
 
-/// The name equal to `name` among `known`, to which it is added.
+/// The copy of `name` in `known`. If there is none, we add it.
 fn shared(name: &str, known: &mut BTreeSet<Arc<str>>) -> Arc<str> {
     if let Some(found) = known.get(name) {
         return Arc::clone(found);
@@ -56,9 +57,9 @@ fn take_filled_names(headers: &[String], columns: &mut [Column], rows: &[CsvRow]
     }
 }
 
-/// Whether commas in the cells of numbers are decimal signs. If commas separate the cells as well, we take
-/// commas in quoted readings for decimal signs, because no reflectance has thousands. Only amounts could
-/// have them.
+/// Whether commas in the cells of numbers are decimal signs. If commas separate the cells as well, we
+/// take commas in quoted readings for decimal signs, because a reflectance needs no separator of
+/// thousands. Only an amount may have one.
 fn has_decimal_commas(separator: u8, columns: &[Column], rows: &[CsvRow]) -> bool {
     rows.iter().any(|row: &CsvRow| {
         row.cells.iter().zip(columns).any(|(cell, column)| {
@@ -72,7 +73,7 @@ fn has_decimal_commas(separator: u8, columns: &[Column], rows: &[CsvRow]) -> boo
     })
 }
 
-/// We allow no larger amount of a pigment. Beyond it sums lose their small terms.
+/// We refuse a larger amount of a pigment, because sums would lose their small terms to rounding.
 const LARGEST_AMOUNT: f64 = 1e12;
 
 /// A CSV table: its header row, the meaning of each column, and the rows below.
@@ -85,7 +86,7 @@ pub(super) struct CsvRows {
     pub(super) headers: Vec<String>,
     pub(super) columns: Vec<Column>,
     pub(super) rows: Vec<CsvRow>,
-    /// Whether numbers have a decimal comma. Between commas such cells are quoted.
+    /// Whether numbers have a decimal comma. If commas also separate the cells, such cells are quoted.
     decimal_comma: bool,
     /// Whether the rows come from a sheet of a workbook.
     is_sheet: bool,
@@ -212,7 +213,8 @@ impl CsvRows {
         self.rows.iter().map(|row| self.reading(row, &mut backings)).collect()
     }
 
-    /// The reading of a row. `backings` holds the names of the rows before. Readings share these.
+    /// The reading of a row. `backings` holds the names of backings in the rows before, so that readings
+    /// share them in memory.
     fn reading(
         &self,
         csv_row: &CsvRow,
@@ -429,12 +431,12 @@ fn byte(cells: &csv::StringRecord) -> u64 {
 
 /// We judge a column by its amounts if there are at least this many rows of paint (chosen by eye).
 const LEAST_ROWS: usize = 3;
-/// Sums of amounts may differ by this share, and we still take them for one whole.
+/// We take sums of amounts for equal if they differ by at most this fraction.
 const WHOLE: f64 = 1e-3;
 
-/// Places of the columns that we took for pigments but that hold no amounts. Such a column has text
-/// in every cell, or amounts for bare cards. Or it has a value in every row, and without it the
-/// amounts of each row sum to one whole (1 or 100).
+/// Indices of the columns that we took for pigments but that hold no amounts. Such a column has text in
+/// every cell, or amounts for bare cards. Or it has a value in every row, and without it the amounts of
+/// each row sum to one whole (1 or 100).
 pub(super) fn without_amounts(
     columns: &[Column],
     rows: &[CsvRow],

@@ -213,7 +213,7 @@ pub enum MeasurementError {
         count: usize,
         /// Share of light that the surface reflects.
         k1: f64,
-        /// A surface below every reading, as settings take it.
+        /// Surface with k1 below every reading, written as in a setting.
         below_all: String,
     },
     /// A film is darker over the brighter of two cards.
@@ -330,7 +330,7 @@ pub enum MeasurementError {
     #[error(
         "{file}: the spectra must overlap; {first} ends at {end_nm} nm, and {second} begins at {start_nm} nm"
     )]
-    #[hint("read them as files of their own")]
+    #[hint("save each in a file of its own and read the files one by one")]
     Apart {
         /// File name as the caller gave it.
         file: String,

@@ -227,7 +227,7 @@ pub enum RecipesError {
         "{file}: no recipe has the name of a reading; recipes: {recipes}; readings: {readings}"
     )]
     #[hint(
-        "names must be spelled alike in both; a column `reading` of the recipes may hold those of the measurement file"
+        "names must be spelled alike in both; a column `reading` of the recipes may hold the names of the measurement file"
     )]
     NoneMatched {
         /// Name of the file of recipes.

@@ -101,12 +101,13 @@ struct Spectrum<'a> {
     record: &'a MeasuredSpectrum,
     wavelengths_nm: Vec<f64>,
     values: Vec<f64>,
-    /// Unit of the record's values. `values` have this unit until they are made fractions.
+    /// Unit of the values in the file, and of `values` until [`Self::cut_noise`] converts them to
+    /// fractions.
     scale: Scale,
 }
 
-/// Selects the records that are readings. We name the others in `remarks`, and refuse them if all are
-/// others.
+/// Selects the records that are readings, and names the others in `remarks`. This fails if no record is a
+/// reading.
 fn reflectances<'a>(
     file: &str,
     records: &'a [MeasuredSpectrum],

@@ -182,8 +182,8 @@ pub struct AveragedSpectra {
 }
 
 impl MeasurementTable {
-    /// Averages repeated readings of one sample on one backing with one thickness. Use this if you need one
-    /// spectrum for each.
+    /// Averages repeated readings of one sample on one backing with one thickness. Use this if you need
+    /// one spectrum for each film or card.
     #[must_use]
     pub fn averaged(&self) -> AveragedSpectra {
         let mut groups: Vec<Vec<&Reading>> = Vec::new();

@@ -1,9 +1,7 @@
 //! Designs of a plan: the pool of recipes, the design for unknown paint, and the design of greatest
 //! information.
-//! We estimate the information on K and S from a library of similar paint. Fedorov's exchange then improves
-//! the design one recipe at a time.
 //!
-//! The information on K and S is estimated from a library of similar paint. Fedorov's exchange then
+//! We estimate the information on K and S from a library of similar paint. Fedorov's exchange then
 //! improves the design one recipe at a time.
 
 use documents::{Cancelled, Task};
@@ -242,7 +240,7 @@ impl Information {
             .collect()
     }
 
-    /// Median over wavelength of these standard deviations, by paint.
+    /// Median over wavelength of the standard deviations of [`Self::log_deviations`], by paint.
     #[must_use]
     pub fn deviations(&self, design: &[usize]) -> Vec<RelativeDeviation> {
         self.log_deviations(design)
@@ -316,7 +314,7 @@ pub fn usual_count(paints: &PaintSet, pool: &[SwatchRecipe]) -> usize {
     rounds(paints, pool).len().max(paints.unknowns()).min(pool.len())
 }
 
-/// Indices of the recipes that come before the rest of the pool, in order.
+/// Indices of the masstones, tints, shades and mixtures 1:1 with which [`usual`] begins, in its order.
 fn rounds(paints: &PaintSet, pool: &[SwatchRecipe]) -> Vec<usize> {
     let weakest = pool
         .iter()

@@ -24,8 +24,8 @@ pub use request::PlanRequest;
 const INSTRUMENT_ERROR: f64 = 0.002;
 /// We expect this error of weighing, mixing and film if a prior has no evidence (chosen by eye).
 const MIXING_ERROR: f64 = 0.01;
-/// We expect at least this error, because some priors reproduce their samples almost exactly (chosen by
-/// eye).
+/// We expect at least this error of weighing, mixing and film, because some priors reproduce their samples
+/// almost exactly (chosen by eye).
 const LEAST_MIXING_ERROR: f64 = 1e-4;
 
 /// One swatch of a plan.
@@ -48,7 +48,7 @@ pub struct Forecast {
     pub deviations: Vec<RelativeDeviation>,
     /// Relative standard deviations for the usual design, by paint.
     pub usual_deviations: Vec<RelativeDeviation>,
-    /// Noise for which they are predicted.
+    /// Expected noise for which the deviations are predicted.
     pub noise: ExpectedNoise,
 }
 

@@ -12,12 +12,12 @@ use crate::measurement::names_a_pigment;
 pub struct PaintSet {
     /// Names of all paints: the white, the colours in their given order, the black.
     pub names: Vec<String>,
-    /// Place of the black, if there is one.
+    /// Index of the black, if there is one.
     pub black: Option<PigmentId>,
 }
 
 impl PaintSet {
-    /// Place of the white, with S = 1.
+    /// Index of the white, with S = 1.
     pub const WHITE: PigmentId = PigmentId(0);
 
     /// Collects the paints. You may name white and black among the colours too.
@@ -45,12 +45,12 @@ impl PaintSet {
         Ok(Self { names, black })
     }
 
-    /// Places of all paints.
+    /// Indices of all paints.
     pub fn ids(&self) -> impl Iterator<Item = PigmentId> + Clone + use<> {
         (0..self.names.len()).map(PigmentId)
     }
 
-    /// Places of all paints but white and black.
+    /// Indices of all paints but white and black.
     pub fn colors(&self) -> impl Iterator<Item = PigmentId> + Clone + use<> {
         let end = self.black.map_or(self.names.len(), PigmentId::index);
         (1..end).map(PigmentId)
@@ -220,7 +220,7 @@ impl MeasurementForm {
 #[fault(Setting)]
 pub enum PlanError {
     /// A name cannot head a pigment's column of a measurement file.
-    #[error("a measurement file would not read this as a pigment's name: `{name}`")]
+    #[error("in a measurement file this heading would not be read as a pigment: `{name}`")]
     #[hint(
         "use a word that is none of the file's own columns (sample, film, backing, thickness_mm, replicate) and no number"
     )]
@@ -300,7 +300,7 @@ pub enum PlanError {
     /// A name does not denote one pigment of the prior library.
     #[error(transparent)]
     Prior(#[from] RecipeError),
-    /// The search was asked to end before its time.
+    /// The search was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }

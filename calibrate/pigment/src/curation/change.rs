@@ -429,7 +429,7 @@ pub enum CurationError {
         /// S at that wavelength.
         value: f64,
     },
-    /// The new grid cannot be reached from the library's.
+    /// The library cannot be interpolated to the new grid.
     #[error("{file}: {error}")]
     #[hint(
         if matches!(error, InterpolateError::TooFew { .. }),

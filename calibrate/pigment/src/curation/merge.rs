@@ -239,7 +239,8 @@ fn amount_word(kind: AmountKind) -> &'static str {
     }
 }
 
-/// Returns a warning if you accept another surface as the first's.
+/// Checks that `other` has the surface and unevenness of the first library. If `any` accepts others, you
+/// get a warning.
 fn check_surface(
     base: &PigmentLibrary,
     first: &Source,

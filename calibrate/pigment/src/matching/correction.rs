@@ -30,8 +30,8 @@ use crate::recipe::PigmentId;
 
 /// We use no internal reflectance below this. Smaller readings say nothing about K / S.
 const LEAST_INTERNAL: f64 = 1e-4;
-/// This far from the target is near enough, in CIEDE2000 (by spectrum in percent of reflectance), unless
-/// options say otherwise. It is about the smallest difference that you see side by side.
+/// Default difference from the target that is near enough, in CIEDE2000, or in percent of reflectance for a
+/// match by spectrum. It is about the smallest difference that you see side by side.
 pub const USUAL_CORRECTION: f64 = 0.5;
 
 /// A pot of paint that you mixed and measured.
@@ -128,7 +128,7 @@ pub struct Corrections {
     pub recipe_delta_e: Vec<f64>,
     /// Whether the batch is within the tolerance, so that you need not correct it.
     pub is_near: bool,
-    /// Whether the corrections bring it within the tolerance.
+    /// Whether the corrections bring the batch within the tolerance.
     pub reaches: bool,
     /// Corrections within the tolerance, the least addition first. If there are none, you get those that
     /// come nearest, the nearest first. Empty if you need not correct the batch.
@@ -366,7 +366,7 @@ fn correction(
     addition: Addition,
     grams: f64,
 ) -> Correction {
-    /// We use all of the stock if we are this near to it, as a fraction.
+    /// We count the whole stock as used if an amount differs from it by at most this fraction.
     const AT_LIMIT: f64 = 1e-6;
     let total = addition.total() * grams;
     let Addition { mut amounts, mixture } = addition;
@@ -559,7 +559,8 @@ impl Additions<'_> {
         self.addition(best)
     }
 
-    /// The nearest mixture in which you add `added` in all. `None` if the stock does not suffice.
+    /// The mixture nearest to the target in which the sum of all additions is `added`. `None` if the stock
+    /// does not suffice.
     fn of_amount(
         &self,
         forward: &Forward<'_>,
@@ -590,7 +591,7 @@ impl Additions<'_> {
         descend(forward, &limits, target, &start, scratch)
     }
 
-    /// The addition in a mixture, without traces below the least amount. `None` if nothing is left.
+    /// The addition in a mixture. `None` if it has less of a pigment than you can weigh.
     fn addition(&self, mixture: Candidate) -> Option<Addition> {
         let pot = mixture.share(self.pot());
         let amounts: Vec<(PigmentId, f64)> = mixture

@@ -65,7 +65,7 @@ impl<'a> Forward<'a> {
     }
 
     /// Computes the measured reflectance of `shares` of `pigments` at a thickness. You find it in
-    /// `scratch`, with its slopes over K d and S d (over K and S for a film that hides).
+    /// `scratch`, with its derivatives with respect to K d and S d (K and S for a film that hides).
     fn reflect(
         &self,
         pigments: &[PigmentId],
@@ -205,7 +205,7 @@ impl<'a> Forward<'a> {
     }
 }
 
-/// The spectrum of a target that is matched by it.
+/// The spectrum of a target, for a search by spectrum.
 fn spectrum_of(target: &Target) -> &SpectralTarget {
     target.spectrum.as_ref().expect("a search by spectrum was checked for one")
 }
@@ -220,8 +220,9 @@ fn residuals(metric: Metric, wanted: Lab, found: Lab) -> [f64; 3] {
     }
 }
 
-/// Residuals of a colour difference and their derivatives over X, Y and Z (rows by residual). We compute
-/// the slopes of CIELAB exactly, and the slopes of the difference formula by difference quotients.
+/// Residuals of a colour difference and their derivatives with respect to X, Y and Z (rows by residual).
+/// We compute the derivatives of CIELAB exactly, and the derivatives of the difference formula by
+/// difference quotients.
 fn residuals_with_slopes(
     metric: Metric,
     wanted: Lab,
@@ -248,7 +249,7 @@ fn residuals_with_slopes(
     (here, over_xyz)
 }
 
-/// Reflectance of a film that hides, with its slopes over K and S.
+/// Reflectance of a film that hides, with its derivatives with respect to K and S.
 fn infinite_film_with_slopes(k: f64, s: f64) -> [f64; 3] {
     // At K = 0 the slope over K is infinite. Slightly above, it is finite and steep.
     let k = k.max(1e-9 * s).max(1e-300);

@@ -1,5 +1,5 @@
-//! Limits of recipes. You give pigments by their places in a library, and the film that a recipe makes. You also
-//! find here the reasons why there are no recipes.
+//! Limits of recipes: the pigments, by their indices in a library, and the film that a recipe makes. You
+//! also find here the reasons why there are no recipes.
 
 use documents::{Cancelled, hint::Explain};
 use spectra::InterpolateError;
@@ -15,8 +15,8 @@ use crate::recipe::PigmentId;
 const LARGEST_WEIGHT: f64 = 1e9;
 /// Range of whole parts of one recipe.
 const WHOLE_PARTS: std::ops::RangeInclusive<u32> = 1..=1000;
-/// K d + S d, averaged over pigments and wavelengths, of the usual wash lies in this range, from nearly
-/// clear to nearly hiding. We chose it by eye.
+/// Range of K d + S d of the usual wash, averaged over pigments and wavelengths: from nearly clear to
+/// nearly hiding. We chose it by eye.
 const USUAL_WASH: [f64; 2] = [0.01, 10.0];
 
 /// Recipes within this CIEDE2000 are equally near, if we know nothing about the library's own error.
@@ -35,7 +35,7 @@ pub struct RequiredPigment {
     pub share: Option<f64>,
 }
 
-/// Limits of the recipes that you search. You give pigments by their places in a library.
+/// Limits of the recipes that you search. You give pigments by their indices in a library.
 ///
 /// Use [`MatchRequest`](super::MatchRequest) to state this by name.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,8 +70,8 @@ pub struct RecipeLimits {
 }
 
 impl RecipeLimits {
-    /// Request with all identified pigments of `library`, up to four in a recipe, shares from 1/50,
-    /// amounts as they were measured, and five recipes.
+    /// Limits with all identified pigments of `library`, up to four in a recipe, shares from 1/50, amounts
+    /// as they were measured, and five recipes.
     #[must_use]
     pub fn new(
         library: &PigmentLibrary,
@@ -120,7 +120,7 @@ impl RecipeLimits {
     }
 
     /// Least and greatest share of a pigment that takes part in a film of this thickness, which is the sum
-    /// of all absolute amounts. If the film allows no share, you get a least one above the greatest.
+    /// of all absolute amounts. If the film allows no share, the least share is above the greatest.
     pub(super) fn share_bounds_at(&self, pigment: PigmentId, thickness: f64) -> (f64, f64) {
         let (least, most) = self.share_bounds(pigment);
         match self.amount_bounds(pigment) {
@@ -268,7 +268,7 @@ impl Thickness {
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 #[fault(Setting)]
 pub enum MatchError {
-    /// The search was asked to end before its time.
+    /// The search was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
     /// No pigment may take part.
@@ -344,7 +344,7 @@ pub enum MatchError {
         /// Name of the target.
         name: String,
     },
-    /// A target was not measured where the library was.
+    /// The wavelengths of the target and of the library do not overlap.
     #[error(
         "`{name}` was measured from {} to {} nm, the library from {} to {} nm: they share no band",
         target_nm[0], target_nm[1], library_nm[0], library_nm[1]
@@ -387,7 +387,7 @@ pub enum MatchError {
     #[hint("price every pigment that may take part, or leave some out with [without] or [only]")]
     #[fault(Input)]
     NoPrice {
-        /// Names of these pigments.
+        /// Names of the pigments without a price.
         pigments: Vec<String>,
     },
     /// The ground cannot be used.

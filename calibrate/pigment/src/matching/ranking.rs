@@ -24,8 +24,8 @@ pub struct RecipeMatch {
     pub thickness: Option<f64>,
     /// CIEDE2000 from the target under each viewing condition.
     pub delta_e: Vec<f64>,
-    /// Weighted root mean square over all viewing conditions of the differences in the metric of the limits, or
-    /// over the shared wavelengths, in percent of reflectance, for a search by spectrum.
+    /// Weighted root mean square of the differences in the metric of the limits, over all viewing
+    /// conditions. For a search by spectrum it is over the shared wavelengths, in percent of reflectance.
     pub distance: f64,
     /// Root mean square of the differences of reflectance from a measured target, in percent: with the
     /// weights of a search by spectrum, else evenly over the shared wavelengths. `None` for a target that
@@ -242,11 +242,11 @@ fn at_limit(
     }
 }
 
-/// Relative distance from a limit below which an amount lies at it.
+/// An amount counts as at its limit if its relative distance from the limit is at most this.
 const AT_LIMIT: f64 = 1e-6;
 
-/// We try at most this many recipes of one set one by one: four pigments in up to 19 parts. It bounds the
-/// time of a search. We chose it by eye.
+/// We try all recipes of one set only if there are at most this many, for example four pigments in up to 19
+/// parts. It bounds the time of a search. We chose it by eye.
 const MOST_RECIPES: u64 = 4_000;
 
 /// Returns the nearest recipe in whole parts, at most `most` in total, for each candidate's pigments. We

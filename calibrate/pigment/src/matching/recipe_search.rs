@@ -320,7 +320,7 @@ impl RecipeSearch<'_> {
         self.library.amounts == AmountKind::Absolute
     }
 
-    /// Metamerism indices of a recipe, each with what it is.
+    /// Metamerism indices of a recipe as JSON, each with its name, lights and unit.
     fn metamerism(&self, recipe: &RecipeMatch) -> Value {
         let mut lights = self.lights();
         let reference = lights.next().unwrap_or_default();

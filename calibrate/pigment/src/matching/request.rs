@@ -62,7 +62,7 @@ pub enum ToleranceOrigin {
     Given,
     /// It is the mean error of the library's fit: recipes that differ by less are equally good.
     Library,
-    /// It is the usual one of the metric: the library records no error, or a smaller one.
+    /// It is the default of the metric, because the library records no error or a smaller one.
     Usual,
 }
 
@@ -132,8 +132,8 @@ pub struct MatchRequest {
     #[serde(serialize_with = "write_ground", deserialize_with = "read_ground")]
     #[schemars(schema_with = "text_or_number")]
     pub over: Option<Backing>,
-    /// Lights under which recipes are judged, each once, with their weights. When matching by spectrum they
-    /// only tell the differences.
+    /// Lights under which recipes are judged, each once, with their weights. A match by spectrum uses them
+    /// only to report colour differences.
     pub conditions: Vec<ViewingCondition>,
 }
 
@@ -509,7 +509,7 @@ fn header_column(
     found.ok_or_else(|| PriceError::MissingColumn { file: file.to_owned(), column })
 }
 
-/// Reads a price from `text`, which stands at `place`.
+/// Reads a price from `text`. An error names its `place`, for example file and row.
 ///
 /// # Errors
 /// [`PriceError::Price`] unless it is a finite number of 0 and up.

@@ -13,12 +13,12 @@ use super::target::Target;
 use crate::least_squares::{Bounds, Cost, UNKNOWNS, descend_within_bounds};
 use crate::recipe::PigmentId;
 
-/// A target is out of reach if the nearest recipe is further than this. We then search sets from more
-/// starting points.
+/// A target is out of reach if the nearest recipe is further than this, in the unit of the metric. We
+/// then search sets from more starting points.
 const FAR: f64 = 2.0;
 
-/// We try at most this many sets of one size: all sets of four out of 30 pigments. For a larger library we
-/// extend only the nearest smaller recipes.
+/// We try at most this many sets of one size, which allows all sets of four out of 30 pigments. For a
+/// larger library we extend only the nearest smaller recipes.
 const MOST_SETS: usize = 30_000;
 
 /// Returns the nearest recipe of each set of pigments that we tried, nearest first. Each set is one of the
@@ -73,7 +73,7 @@ pub(super) fn search(
     found
 }
 
-/// We will try this many sets. The number is doubled if we also round each to whole parts.
+/// Number of sets that a search will try, doubled if we also round the recipe of each set to whole parts.
 pub(super) fn expected(limits: &RecipeLimits) -> usize {
     let fixed = limits.required.len();
     let free = limits.allowed.len() - fixed.min(limits.allowed.len());
@@ -102,7 +102,8 @@ fn first_sets(limits: &RecipeLimits) -> Sets {
     BTreeMap::from([(required, None)])
 }
 
-/// Every set with one pigment more, each with its nearest smaller recipe.
+/// Every set with one pigment more than a set of `tried`, each with the nearest recipe of such a smaller
+/// set.
 fn grown(limits: &RecipeLimits, tried: &[(Vec<PigmentId>, Option<Candidate>)]) -> Sets {
     let mut parents: Vec<_> = tried.iter().collect();
     parents.sort_by(|a, b| distance(&a.1).total_cmp(&distance(&b.1)).then_with(|| a.0.cmp(&b.0)));
@@ -175,7 +176,7 @@ fn corners(limits: &RecipeLimits, set: &[PigmentId]) -> Vec<Candidate> {
         .collect()
 }
 
-/// Shares within their bounds, as near to the proportions of `wished` as those allow.
+/// Shares within their bounds, as near to the proportions of `wished` as the bounds allow.
 fn candidate(
     limits: &RecipeLimits,
     set: &[PigmentId],
@@ -387,7 +388,7 @@ fn totals(limits: &RecipeLimits, pigments: &[PigmentId]) -> (f64, f64) {
     (if pigments.len() == 1 { least } else { thinnest }, most.sum())
 }
 
-/// The recipe with its shares moved within the limits at its thickness. `None` if there are none.
+/// The recipe with its shares moved within the limits at its thickness. `None` if no shares satisfy them.
 pub(super) fn within_limits(limits: &RecipeLimits, recipe: &Candidate) -> Option<Candidate> {
     let bounds: Vec<(f64, f64)> =
         recipe.pigments.iter().map(|&p| limits.share_bounds_at(p, recipe.thickness)).collect();

@@ -131,8 +131,8 @@ pub struct SpectralTarget {
 
 impl SpectralTarget {
     /// Target on `grid`, the wavelengths of a library. We use `conditions` only for
-    /// [`SpectrumWeights::Observer`]. `None` if target and grid share less than two wavelengths, or no
-    /// light falls on those they share.
+    /// [`SpectrumWeights::Observer`]. `None` if target and grid share less than two wavelengths, or the
+    /// lights have no power at the shared ones.
     ///
     /// # Errors
     /// None in practice: the method is chosen to fit the grid of the spectrum.
@@ -185,8 +185,8 @@ impl SpectralTarget {
         PERCENT * squares.sum::<f64>().sqrt()
     }
 
-    /// Half the square of [`Self::rms_percent`] of `found`, with slopes. `by_unknown` holds the slopes of
-    /// `found` over each unknown, one unknown after the other.
+    /// Half the square of [`Self::rms_percent`] of `found`, with its derivatives. `by_unknown` holds the
+    /// derivatives of `found` with respect to each unknown, one unknown after the other.
     pub(super) fn cost(&self, found: &[f64], by_unknown: &[f64]) -> Cost {
         let mut cost =
             Cost { value: 0.0, gradient: [0.0; UNKNOWNS], matrix: [[0.0; UNKNOWNS]; UNKNOWNS] };

@@ -22,7 +22,7 @@ pub const HIDING_CONTRAST: f64 = 0.98;
 /// see.
 const UNSEEN: f64 = 0.02;
 
-/// At the greatest thickness that we try, K d + S d of the strongest paint is this. We chose it by eye.
+/// K d + S d of the strongest paint at the greatest thickness that we try. We chose it by eye.
 const THICKEST: f64 = 1e5;
 /// We try this many thicknesses per decade.
 const STEPS: usize = 8;
@@ -80,9 +80,9 @@ pub fn hiding_powers(palette: &Palette<'_>) -> Vec<HidingPower> {
         .collect()
 }
 
-/// S of the library's reference white per mm of height with which its film hides from 0.05 mm on
-/// under D65 (see [`hiding_powers`]), rounded to a whole number. `None` if no pigment is the reference
-/// white, or it does not hide at any thickness.
+/// S of the library's reference white per mm of height, chosen so that its film hides from 0.05 mm on
+/// under D65 (see [`hiding_powers`]). It is rounded to a whole number. `None` if no pigment is the
+/// reference white, or it does not hide at any thickness.
 #[must_use]
 pub fn scattering_per_mm(library: &PigmentLibrary) -> Option<f64> {
     let white = library.reference_id().filter(|&white| library[white].identified)?;

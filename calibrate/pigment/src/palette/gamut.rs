@@ -15,14 +15,14 @@ use crate::color::Appearance;
 use crate::evaluate::Viewing;
 use crate::recipe::{PigmentId, Recipe};
 
-/// We mix each pair in this many ratios, even in the logarithm of the ratio, because a little of a strong
+/// We mix each pair in this many ratios, evenly spaced in their logarithm, because a little of a strong
 /// paint changes a weak one quickly.
 const RATIOS: i32 = 21;
-/// Largest ratio of a pair, chosen by eye.
+/// Largest ratio of the two paints of a pair, chosen by eye.
 const FURTHEST: f64 = 150.0;
-/// Parts of white to one of a pair, chosen by eye.
+/// Parts of white to one part of a mixed pair, chosen by eye.
 const WHITES: [f64; 7] = [0.0, 0.4, 1.2, 3.0, 7.0, 16.0, 45.0];
-/// Parts of black to one of a pair, chosen by eye.
+/// Parts of black to one part of a mixed pair, chosen by eye.
 const BLACKS: [f64; 2] = [0.03, 0.2];
 /// Factors by which a wash is made stronger in a library of absolute amounts, chosen by eye.
 const STRONGER: [f64; 7] = [1.3, 1.7, 2.2, 3.0, 4.0, 5.5, 8.0];
@@ -231,7 +231,7 @@ pub(super) fn shares() -> impl Iterator<Item = f64> {
     (0..RATIOS).map(move |at| 1.0 / (1.0 + (FURTHEST.ln() - f64::from(at) * step).exp()))
 }
 
-/// `recipe` with `parts` parts of `paint` to one part of it.
+/// `recipe` with `parts` parts of `paint` added to one part of `recipe`.
 fn with_paint(recipe: &Recipe, paint: PigmentId, parts: f64) -> Recipe {
     let own = 1.0 / (1.0 + parts);
     let mut mixed = recipe.scaled(own);
@@ -239,8 +239,8 @@ fn with_paint(recipe: &Recipe, paint: PigmentId, parts: f64) -> Recipe {
     mixed
 }
 
-/// Three or four paints each, with shares uniform over all that sum to 1. Every other recipe has 0.5
-/// to 32 parts of white, even in their logarithm.
+/// Three or four paints each, with shares uniform over all that sum to 1. Every other recipe has 0.5 to 32
+/// parts of white, uniform in their logarithm.
 fn random_recipes(palette: &Palette<'_>) -> Vec<Recipe> {
     let paints = palette.paints();
     if paints.len() < 3 {

@@ -242,7 +242,8 @@ impl<'a> Palette<'a> {
         reference.unwrap_or_else(|| self.by_luminance(|a, b| b > a))
     }
 
-    /// First paint by luminance of films, in the order `better`.
+    /// Paint with the best luminance of its film. `better` says whether its second luminance is better than
+    /// the first.
     fn by_luminance(&self, better: impl Fn(f64, f64) -> bool) -> PigmentId {
         let all = self.paints.iter().map(|&p| (p, self.color(&Recipe::single(p)).xyz.y));
         all.reduce(|a, b| if better(a.1, b.1) { b } else { a }).expect("a palette has a paint").0

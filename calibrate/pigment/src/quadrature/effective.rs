@@ -126,7 +126,7 @@ pub struct FilmSet {
     pub(super) films: Vec<Film>,
 }
 
-/// Draws of films.
+/// Generator of random films.
 struct Draw<'a> {
     library: &'a PigmentLibrary,
     random: ChaCha8Rng,
@@ -359,7 +359,7 @@ mod tests {
         Viewing { illuminant, observer: Observer::Cie1931Deg2 }
     }
 
-    /// Errors of hiding films and of films over grounds that nothing was fitted to.
+    /// Errors over films to which nothing was fitted: films that hide, and films over grounds.
     fn unseen(
         light: &str,
         quadrature: &EffectiveQuadrature,

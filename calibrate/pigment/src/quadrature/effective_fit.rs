@@ -16,17 +16,17 @@ use crate::evaluate::Viewing;
 use crate::least_squares::{NormalEquations, SparseRows, Stop, minimise};
 use crate::library::PigmentLibrary;
 
-/// The training set has this many films for each pigment, and at least this many in all.
+/// The training set has this many films for each pigment, and at least `LEAST_FILMS` in all.
 const FILMS_A_PIGMENT: usize = 120;
 const LEAST_FILMS: usize = 2000;
-/// We draw this many further films for each pigment. The ones with the largest errors after the first fit
-/// join the training.
+/// We draw this many further films for each pigment, and at least `LEAST_CANDIDATES` in all. The ones with
+/// the largest errors after the first fit join the training.
 const CANDIDATES_A_PIGMENT: usize = 400;
 const LEAST_CANDIDATES: usize = 8000;
-/// This share of the further films joins the training. Any from 1.5 to 3 % does as well.
+/// This share of the further films joins the training. Any share from 1.5 to 3 % does as well.
 const WORST: f64 = 0.02;
 const SEED: u64 = 2004;
-/// Stopping rules of the two fits. You gain less by a later step than by the choice of the films.
+/// Stopping rules of the two fits. Further steps would gain less than a better choice of the films.
 const FIRST_STOP: Stop = Stop { iterations: 100, relative_decrease: 1e-3 };
 const SECOND_STOP: Stop = Stop { iterations: 20, ..FIRST_STOP };
 
@@ -70,7 +70,7 @@ impl EffectiveQuadrature {
     }
 }
 
-/// Greatest size of every weight, as of the fitted rule.
+/// Greatest absolute value of every weight, as in [`Quadrature::library`].
 const LARGEST_WEIGHT: f64 = 1e3;
 /// Greatest change of the logarithm of K or S.
 const LARGEST_CHANGE: f64 = 6.0;
@@ -219,8 +219,8 @@ impl Problem {
         found
     }
 
-    /// Measured reflectance of a film at a wavelength, and its derivatives by K and S of the mixture and by
-    /// the wavelength, which changes the ground that is seen.
+    /// Measured reflectance of a film at a wavelength, and its derivatives with respect to K and S of the
+    /// mixture and to the wavelength, on which the ground depends.
     fn reflectance(&self, film: &Film, nm: f64, k: f64, s: f64) -> [f64; 4] {
         let [internal, over_k, over_s, over_nm] = match &film.over {
             None => {
@@ -249,7 +249,7 @@ impl Problem {
         nodes.map(|(&nm, (k, s))| self.reflectance(film, nm, k, s)).collect()
     }
 
-    /// Residual of a film and its derivatives by XYZ.
+    /// Residual of a film and its derivatives with respect to XYZ.
     fn residual(&self, index: usize, xyz: Xyz) -> ([f64; 3], Matrix3) {
         let white = self.films.white;
         let (target, metric) = &self.targets[index];

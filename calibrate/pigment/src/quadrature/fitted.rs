@@ -20,8 +20,8 @@ use crate::library::PigmentLibrary;
 const TRAINING: usize = 700;
 const TRAINING_SEED: u64 = 2004;
 const STOP: Stop = Stop { iterations: 120, relative_decrease: 1e-6 };
-/// Greatest size of every weight, positive or negative. The weights of a channel sum to about 100, so a
-/// good fit never reaches this.
+/// Greatest absolute value of every weight. The weights of a channel sum to about 100, so a good fit never
+/// reaches this.
 const LARGEST_WEIGHT: f64 = 1e3;
 
 impl Quadrature {
@@ -175,7 +175,7 @@ impl<'a> Problem<'a> {
         Quadrature { nodes_nm, weights, white: self.start.white }
     }
 
-    /// Measured reflectance of a mixture at `nm`, and its slope over nm.
+    /// Measured reflectance of a mixture at `nm`, and its derivative with respect to the wavelength.
     fn reflectance(&self, index: usize, nm: f64) -> (f64, f64) {
         let mixture = &self.training.mixtures[index];
         let (k, k_slope) = on_line(self.training.grid, &mixture.absorption, nm);

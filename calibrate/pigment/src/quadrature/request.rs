@@ -1,5 +1,5 @@
-//! Which wavelengths to choose and how to test them: the options of the verb `quadrature`, which every program
-//! fills in its own way, and what comes out.
+//! Options of a quadrature, which every program fills in its own way: which wavelengths to choose and how to
+//! test them. You also find here the result.
 //!
 //! Comments of the fields are the help texts of the command line and the descriptions of the schema.
 
@@ -34,7 +34,7 @@ pub enum QuadratureChoice {
 #[serde(default, deny_unknown_fields)]
 #[schemars(description = "Options of a quadrature")]
 pub struct QuadratureRequest {
-    /// Method of choosing them [default: library where one is given, else moments]
+    /// Method of choosing the wavelengths [default: library where one is given, else moments]
     pub method: Option<QuadratureChoice>,
     /// Number of wavelengths, 1 to 32
     pub nodes: usize,

@@ -215,7 +215,7 @@ pub enum QuadratureFailure {
         /// Name of the method.
         method: &'static str,
     },
-    /// The fit was asked to end before its time.
+    /// The fit was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }

@@ -301,7 +301,7 @@ fn faults_name_both_files_and_the_way_out() {
     let half = counts(folder, "half.txt", |nm| 100.0 + 0.5 * lamp_of_counts(nm));
     let run = impasto(&["color", &half, "--white", &white, "--dark", &dark]);
     assert_eq!(run.status, 1, "{}", run.err);
-    for word in ["half.txt: cannot be set against", "white.txt", "500 nm", "--least-light"] {
+    for word in ["half.txt: cannot be divided by", "white.txt", "500 nm", "--least-light"] {
         assert!(run.err.contains(word), "{word}: {}", run.err);
     }
     let run = impasto(&["color", &half, "--white", &white]);
