@@ -1,8 +1,8 @@
 //! One sub-step of a brush head, bending included:
 //! `cargo bench -p impasto-paint --bench brush`.
 //!
-//! Target: 80 microseconds for a contact of 88 x 88 cells, 25 for 26 x 26. Items are cells of the
-//! contact.
+//! Target: 80 microseconds for a contact of 88 x 88 cells, 25 for 26 x 26. The bench counts cells
+//! of the contact as items.
 
 use divan::{Bencher, counter::ItemsCount};
 use graphics::field::Field;

@@ -1,10 +1,10 @@
 //! Sub-steps on the CPU: `cargo bench -p impasto-paint --bench motion`.
 //!
-//! A head with a curved bottom moves one cell per sub-step over wet paint of eight pigments. Items
-//! are cells of the rectangle of the contact. For comparison: Baxter, Wendt and Lin (2004) reached
-//! 0.52 million cells/s at 88 x 88 and 116 sub-steps/s at 26 x 26 on a GeForce FX 5900. libmypaint,
-//! which does not simulate paint, reaches 8.5 million cells/s for a dab of radius 32. To measure
-//! one core, set `RAYON_NUM_THREADS=1`.
+//! A head with a curved bottom moves one cell per sub-step over wet paint of eight pigments. The
+//! bench counts cells in the contact's rectangle as items. For comparison: Baxter, Wendt and Lin
+//! (2004) reached 0.52 million cells/s at 88 x 88 and 116 sub-steps/s at 26 x 26 on a GeForce FX
+//! 5900. libmypaint, which does not simulate paint, reaches 8.5 million cells/s for a dab of radius
+//! 32. To measure one core, set `RAYON_NUM_THREADS=1`.
 
 use divan::{Bencher, counter::ItemsCount};
 use graphics::field::Field;
@@ -21,7 +21,7 @@ fn main() {
 
 const CANVAS: usize = 512;
 const HEAD: usize = 96;
-/// Sub-steps of one stroke across the canvas, over paint that no stroke has moved.
+/// Number of sub-steps of one stroke across the canvas, over paint that no stroke has moved.
 const STROKE: usize = CANVAS - HEAD;
 
 /// Paint of eight pigments and vehicle in every cell, about `cells` cells high.
@@ -44,8 +44,8 @@ fn engine() -> (PaintEngine, BrushId) {
     (engine, brush)
 }
 
-/// The contact of a square head, or, unless `whole`, of the disc in it. The bottom of the square
-/// curves up by one and a half cells from the centre to the corners.
+/// Contact of a square head or, if not `whole`, of a round head of the same width. The bottom of
+/// the square rises by one and a half cells from the centre to the corners.
 fn contact(size: usize, x: usize, whole: bool) -> Contact {
     let radius = size as f64 / 2.0;
     let touches = (0..size * size).map(|i| {

@@ -2,15 +2,16 @@
 //! stroke`.
 //!
 //! Strokes run from samples to paint: the head bends, its footprint is rasterised, the paint of
-//! eight pigments moves, and undo saves tiles. Items are cells of the rectangles of contacts,
-//! cycles are sub-steps. Target on two cores: 30 million cells/s with a rectangle of 88 x 88,
-//! 25,000 sub-steps/s with one of 26 x 26.
+//! eight pigments moves, and undo saves tiles. The bench counts cells in the contacts' rectangles
+//! as items and sub-steps as cycles. Target on two cores: 30 million cells/s with a rectangle of 88
+//! x 88, 25,000 sub-steps/s with one of 26 x 26.
 //!
-//! The replay paints the shipped colour study from bare linen to the last stroke. Items are
-//! strokes.
+//! The replay paints the shipped colour study from bare linen to the last stroke. This bench counts
+//! strokes as items.
 //!
-//! Relighting recomputes every cell of a painting of three dry layers, with relief and gloss. Items
-//! are cells of the canvas. Target at 4096 x 4096: below 3 s, or 5.6 million cells/s.
+//! Relighting recomputes every cell of a painting of three dry layers, with relief and gloss. This
+//! bench counts cells of the canvas as items. Target at 4096 x 4096: below 3 s, or 5.6 million
+//! cells/s.
 
 use std::cell::RefCell;
 use std::convert::Infallible;
@@ -106,8 +107,8 @@ fn sample(seconds: f64, x_mm: f64, pressure: f64) -> Sample {
     }
 }
 
-/// A loaded flat of 25 mm, upright, in two circles over each other on linen, as fast as in the
-/// studio's bench `speed`.
+/// A loaded flat of 25 mm, held upright, paints two circles over each other on linen. It moves as
+/// fast as in the studio's bench `speed`.
 #[divan::bench(sample_count = 3, sample_size = 1)]
 fn wide_flat(bencher: Bencher<'_, '_>) {
     let library = oils();

@@ -27,12 +27,13 @@ pub const fn share_of_65536(amount: u32, share: u32) -> u32 {
 }
 
 /// Computes `part / whole` in parts of 65536, for a `part` up to `whole` and a `whole` up to
-/// [`MAX_COLUMN`]. The result is never more than the exact ratio and at most 1/32768 of it less. If
-/// `whole` is 0, you get 0.
+/// [`MAX_COLUMN`]. The result never exceeds the exact ratio, and is less by at most 1/32768 of it
+/// plus 1. If `whole` is 0, you get 0.
 #[inline(always)]
 #[must_use]
 pub fn ratio_of_65536(part: u32, whole: u32) -> u32 {
-    /// Exponent of an f64, and the bits of 2^15 with an exponent twice the bias too high.
+    /// Mask of the exponent bits of an f64. For a number from 2^e to 2^(e + 1), `SHIFTED` minus
+    /// these bits gives the bits of 2^(15 - e).
     const EXPONENT: u64 = 0x7ff0_0000_0000_0000;
     const SHIFTED: u64 = (15 + 2 * 1023) << 52;
     // In the shaders, the product of `part` and 65536 must fit into 32 bits, so both numbers lose
@@ -116,7 +117,7 @@ mod tests {
 
     #[test]
     fn quotients_and_ratios_agree_with_whole_numbers() {
-        /// The division of the shaders.
+        /// Divides as the shaders do.
         fn ratio(part: u32, whole: u32) -> u32 {
             let excess = 16_u32.saturating_sub(part.leading_zeros());
             ((part >> excess) << 16) / ((whole >> excess) + u32::from(excess > 0))

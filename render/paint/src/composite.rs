@@ -119,8 +119,8 @@ mod tests {
         [0.0, 1e-12, 1e-7, 1e-5, 1e-3, 0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 50.0, 300.0, 2000.0, 1e4];
     const BACKINGS: [f32; 8] = [0.0, 1e-4, 0.03, 0.2, 0.5, 0.8, 0.97, 1.0];
 
-    /// A layer in which 16384 quanta of slot 0 have the absorption `k` and none else, and
-    /// 16384 quanta of slot 1 the scattering `s`.
+    /// A layer with two pigments. 16384 quanta of slot 0 absorb `k` and do not scatter, and 16384
+    /// quanta of slot 1 scatter `s` and do not absorb.
     fn layer(k: f32, s: f32) -> LayerOptics {
         let mut layer =
             LayerOptics { absorption: [[0.0; NODES]; SLOTS], scattering: [[0.0; NODES]; SLOTS] };

@@ -10,7 +10,7 @@ pub struct Touch {
     /// Height of the head's surface at the cell's centre, in quanta over the plane of the canvas.
     /// If there is no head, this is `i32::MAX`.
     pub height: i32,
-    /// Index of the head's paint cell at that point, counted row by row.
+    /// Index of the head's paint cell above the cell's centre, counted row by row.
     pub brush_cell: u32,
     /// Tangential velocity of the surface in 1/256 cell a sub-step: x in the low 16 bits,
     /// y in the high 16 bits, each as two's complement.
@@ -77,7 +77,7 @@ impl Touch {
         self.weights = self.weights & !(0x7f << 9) | release << 9;
     }
 
-    /// Reduces the velocity to the share `left` of it.
+    /// Multiplies the velocity by `left`, 0 to 1.
     #[inline(always)]
     pub(crate) fn slow(&mut self, left: f32) {
         let (x, y) = self.velocity();
@@ -107,7 +107,7 @@ fn pack(low: u16, high: u16) -> u32 {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct ExchangeRates {
-    /// Thickness of the head's coat relative to the paint on it, beyond `film`.
+    /// Thickness of the head's coat relative to the paint on the head. `film` is added to this.
     pub release: u32,
     /// Thickness in quanta of the part of the coat that does not depend on the paint on the head.
     pub film: u32,
@@ -117,11 +117,11 @@ pub struct ExchangeRates {
     /// Where a film is thicker than the coat, the share of the surplus that the head takes up in a
     /// sub-step.
     pub pick_up: u32,
-    /// Share of the smaller side that the two sides exchange: each gives this much and gets as much
-    /// of the other's paint.
+    /// Share of the paint that head and canvas exchange, relative to the smaller of their two
+    /// amounts. Each side gives this much and gets as much of the other's paint.
     pub mixing: u32,
     /// Distance in quanta by which the canvas presses hair below the crests of the ground. It is
-    /// less where its coat bears it.
+    /// less where the coat bears the hair.
     pub sink: u32,
     /// Velocity of the paint that the head has penetrated, relative to the head's, in
     /// parts of 256, up to 256.
@@ -141,8 +141,8 @@ pub struct Contact {
     pub touches: Vec<Touch>,
     /// How the head exchanges paint with the canvas.
     pub rates: ExchangeRates,
-    /// Flow of paint over the head before the sub-step. For example, the first contact of a stroke
-    /// has some.
+    /// Flow of paint over the head before the sub-step. For example, paint flows before the first
+    /// contact of a stroke.
     pub wicking: Wicking,
 }
 
@@ -155,7 +155,7 @@ pub struct Wicking {
     pub first_row: u32,
     /// Number of neighbouring hairs whose paint levels together. 0 and 1 level each hair alone.
     pub hairs: u32,
-    /// Number of hairs by which the groups start before the first hair, below `hairs`. Groups
+    /// Number of hairs, below `hairs`, by which the first group is smaller than the others. Groups
     /// that overlap from flow to flow spread paint across the head.
     pub shift: u32,
     /// Number of flows until every group has had its turn. With 0 or 1, all groups flow at once.

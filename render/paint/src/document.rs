@@ -102,9 +102,9 @@ impl Default for Medium {
 }
 
 impl Medium {
-    /// Oil for the paint of `library`, in which its white hides from 0.05 mm on (see
-    /// [`scattering_per_mm`]). If the library does not have a white that hides, you get the
-    /// scattering of the default.
+    /// Oil in which the white of `library` hides the ground from a thickness of 0.05 mm on (see
+    /// [`scattering_per_mm`]). If the library does not have a white that hides, you get the default
+    /// scattering.
     #[must_use]
     pub fn of(library: &PigmentLibrary) -> Self {
         let default = Self::default();

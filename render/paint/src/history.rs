@@ -136,7 +136,7 @@ pub struct History<T> {
 #[derive(Debug)]
 enum OpenAction<T> {
     Saved(Action<T>),
-    /// It exceeds the limit by itself, so we dropped its saved state.
+    /// The action alone exceeds the limit, so we dropped its saved state.
     TooLarge,
 }
 

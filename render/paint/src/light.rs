@@ -17,8 +17,8 @@ use spectra::{LightError, Observer, ObserverError, light_from_text};
 
 use crate::optics::{NODES, SceneSurface, scaled, scene_surface};
 
-/// Number of quadratures that we keep, those used last. For example, a split view needs two, and a
-/// painter compares a few.
+/// Number of quadratures that we keep: those used most recently. For example, a split view needs
+/// two, and a painter compares a few.
 const KEPT: usize = 8;
 
 static QUADRATURES: KeptQuadratures = KeptQuadratures(Mutex::new(Vec::new()));

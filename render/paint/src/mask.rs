@@ -86,8 +86,9 @@ impl Mask {
     }
 
     /// Lines between covered and open blocks of `step` x `step` cells, from corner to corner in
-    /// cells. Each line is as long as it is straight. You get the lines along x first. We judge a
-    /// block by the cell in its middle. The edge of the canvas does not count as such a line.
+    /// cells. Each line runs to the next bend of the border. You get the lines along x first. The
+    /// middle cell of a block decides whether it counts as covered. The edge of the canvas does not
+    /// count as such a line.
     #[must_use]
     pub fn outline(&self, step: usize) -> Vec<[(u32, u32); 2]> {
         let step = step.max(1);

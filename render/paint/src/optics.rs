@@ -60,13 +60,13 @@ pub struct Scene {
     pub wet: LayerOptics,
     /// The surface between paint and air.
     pub surface: SceneSurface,
-    /// Linear sRGB of a reflectance of 1 at one wavelength and 0 at the others, by wavelength. For
-    /// the perfect diffuser you sum them to (1, 1, 1).
+    /// Linear sRGB of a reflectance of 1 at one wavelength and 0 at the others, by wavelength. They
+    /// sum to (1, 1, 1), the colour of the perfect diffuser.
     pub rgb_from_nodes: [[f32; 3]; NODES],
     /// Direction of the light, relief and gloss.
     pub lamp: Lamp,
-    /// Width and height of a cell in mm, above 0. Shading needs this to look some tenths of a mm
-    /// far.
+    /// Width and height of a cell in mm, above 0. Shading needs this to find the surface within
+    /// some tenths of a mm.
     pub cell_mm: f32,
 }
 

@@ -9,7 +9,7 @@ pub struct Sample {
     /// Distance in mm from the left edge of the canvas to the middle of
     /// what the brush touches.
     pub x_mm: f64,
-    /// Distance in mm from the upper edge of the canvas to that point.
+    /// Distance in mm from the upper edge of the canvas to the middle of what the brush touches.
     pub y_mm: f64,
     /// Pressure from 0 (just above the canvas) to 1 (down as far as the head bends).
     pub pressure: f64,
@@ -39,7 +39,7 @@ pub struct Pose {
     /// Distance in cells from the left edge of the canvas to the middle of
     /// what the brush touches.
     pub x: f64,
-    /// Distance in cells from the upper edge of the canvas to that point.
+    /// Distance in cells from the upper edge of the canvas to the middle of what the brush touches.
     pub y: f64,
     /// Pressure from 0 (just above the canvas) to 1 (as far down as the head bends).
     pub pressure: f64,
@@ -78,7 +78,7 @@ impl Sample {
 
 /// Number of decimals to which we round the numbers of a sample.
 ///
-/// If you round a sample to fewer decimals and then to more, it stays the same.
+/// If you round a sample to fewer decimals and then to more, the second step changes nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SampleDecimals {
     /// Decimals of `seconds`.

@@ -515,9 +515,9 @@ impl<'a> SpectralDocument<'a> {
         Self::new(document, SpectralStack::full)
     }
 
-    /// Reflectance at the nodes of `quadrature`, as we compute pictures. K and S there may stand
-    /// for bands. Then this is near the reflectance at these wavelengths, but has the colour of the
-    /// whole.
+    /// Reflectance at the nodes of `quadrature`, as we compute pictures. K and S at a node may
+    /// stand for a band of wavelengths. Then the reflectance at the node itself is only
+    /// approximate, but you get the colour of the whole spectrum.
     #[must_use]
     pub fn at_nodes(document: &'a Document, quadrature: &EffectiveQuadrature) -> Self {
         Self::new(document, |appearance| SpectralStack::at_nodes(appearance, quadrature))

@@ -2,11 +2,11 @@
 //! surface reflection, colour, relief and gloss. `shade.wgsl` follows this specification.
 //!
 //! A flat painting shows what an instrument measures: under any lamp, a cell on level paint has
-//! exactly the colour of its film. Relief multiplies that by
+//! exactly the colour of its film. Relief multiplies this colour by
 //! ```text
 //! f = 1 + ambient (open - 1) + (1 - ambient) (seen (n . l) / l_z - 1)
-//! open = 1 / (1 + mean of s^2)     s: slopes up to what stands around, in eight directions
-//! seen = 1 / (1 + (r / SOFT)^2)    r: how far what stands towards the lamp overtops it
+//! open = 1 / (1 + mean of s^2)     s: slopes up to the cells around, in eight directions
+//! seen = 1 / (1 + (r / SOFT)^2)    r: how much a slope towards the lamp exceeds the lamp's
 //! ```
 //! where n is the surface normal and l the direction to the lamp. `open` is the share of the
 //! sky above horizons of these slopes, `seen` a cast shadow with a soft edge. Both are 1 on a
@@ -107,7 +107,7 @@ impl Tops {
     /// Heights of `count` cells from (`x`, `y`) on, moved by `offset` in x and y.
     ///
     /// # Panics
-    /// If the offset along x exceeds [`MARGIN`], or cells of the canvas are none.
+    /// If the offset along x exceeds [`MARGIN`], or the canvas does not have these cells.
     #[inline(always)]
     fn row(&self, (x, y): (usize, usize), offset: [i32; 2], count: usize) -> &[i32] {
         let [along, down] = offset;
@@ -123,8 +123,8 @@ pub const REACH_MM: f32 = 0.8;
 /// Most that relief may add to the light of level paint, as a share of it.
 pub const MOST: f32 = 1.5;
 
-/// The lamp has a slope, and a slope towards the lamp may overtop it. By this much, half of the
-/// light is left.
+/// A surface towards the lamp casts a shadow if the slope up to it exceeds the slope of the lamp.
+/// If the excess is this large, half of the light is left.
 pub const SOFT: f32 = 0.3;
 
 /// Distances towards the lamp at which we look at the surface, in mm, each with its weight. For
@@ -132,15 +132,16 @@ pub const SOFT: f32 = 0.3;
 const SHADOW: [(f32, f32); 6] =
     [(0.1, 1.0), (0.2, 1.0), (0.3, 1.0), (0.4, 0.9), (0.6, 0.7), (REACH_MM, 0.4)];
 
-/// Distances of what stands around, in mm: along the axes and along the diagonals.
+/// Distances in mm to the cells that may hide part of the sky: along the axes and along the
+/// diagonals.
 const AROUND: [f32; 2] = [0.2, 0.45];
 
-/// A cell at an offset. Its height changes the light of this cell.
+/// A cell near another cell. Its height changes the light of the other.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Tap {
     /// Offset in cells along x and y.
     pub offset: [i32; 2],
-    /// Slope for each quantum that the other cell is higher.
+    /// Slope for each quantum by which the near cell is higher.
     pub per_quantum: f32,
     /// Subtracted from the slope: the slope of the ray to the lamp, or 0.
     pub less: f32,
@@ -158,8 +159,8 @@ pub struct ReliefLamp {
     pub ambient: f32,
     /// Slope for a height difference of one quantum over two cells, times the lamp's relief.
     pub slope: f32,
-    /// By [`TopMaterial`]: gloss with its strength times the share of direct
-    /// light, and h_z to its exponent.
+    /// For each [`TopMaterial`], its gloss with the strength times the share of direct light, and
+    /// h_z to the power of the exponent.
     pub gloss: [(Gloss, f32); 3],
     /// Cells towards the lamp that may shade this one.
     pub shadow: [Tap; SHADOW.len()],
@@ -433,7 +434,8 @@ impl pulp::WithSimd for Shade<'_> {
     }
 }
 
-/// Factor on a colour with the greatest channel `most`, for a factor of `diffuse` on its light.
+/// Limits the factor `diffuse` on the light of a colour, so that its greatest channel `most` stays
+/// below 1.
 #[inline(always)]
 fn bounded<S: Simd>(diffuse: f32, most: f32) -> f32 {
     let more = greater(diffuse - 1.0, 0.0);

@@ -190,7 +190,7 @@ impl Piece {
         piece
     }
 
-    /// Upper bound of its sub-steps.
+    /// Upper bound of the number of sub-steps of this piece.
     fn size(&self) -> f64 {
         let legs = self.points.windows(2).map(|leg| distance(leg[0], leg[1]));
         // A Bezier curve of parameter 0..1 is nowhere faster than this.
@@ -199,7 +199,7 @@ impl Piece {
         (fastest + swung).max(turned(&self.from, &self.to, self.reach))
     }
 
-    /// Number of sub-steps from its step `look` to the next.
+    /// Number of sub-steps, or part of one, from step `look` to the next step.
     fn part(&self, look: u64) -> f64 {
         substeps_between(&self.pose(look), &self.pose(look + 1), self.reach)
     }
@@ -236,7 +236,8 @@ fn substeps_between(a: &Pose, b: &Pose, reach: f64) -> f64 {
     (distance((a.x, a.y), (b.x, b.y)) + swung(a, b, reach)).max(turned(a, b, reach))
 }
 
-/// Way in cells of the sides of a brush as it twists. `reach` is half of its width in cells.
+/// Distance in cells by which the sides of a brush move as it twists. `reach` is half of its width
+/// in cells.
 fn swung(a: &Pose, b: &Pose, reach: f64) -> f64 {
     reach * (a.twist_deg - b.twist_deg).abs().to_radians()
 }
@@ -776,7 +777,7 @@ mod tests {
         substeps(&[SAMPLE, second], 0.1, SIZE_MM).err().unwrap()
     }
 
-    /// Hair is pressed by about half its sink.
+    /// Depth in quanta by which hair is pressed in: about half of its sink.
     fn sunk(contact: &Contact) -> i32 {
         (contact.rates.sink / 2) as i32
     }

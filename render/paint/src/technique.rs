@@ -93,8 +93,8 @@ pub trait Technique: Sized {
     /// [`Self::Error`] for a view that shows nothing, for a device that fails, and if `task` is cancelled.
     fn paint(&mut self, view: Self::View<'_>, task: &Task) -> Result<Self::Picture, Self::Error>;
 
-    /// The pictures of the steps to [`Self::paint`] of this view, in their order. If the steps of a
-    /// technique are not pictures, you get none.
+    /// The pictures of the steps in which [`Self::paint`] paints this view, in their order. If the
+    /// steps of a technique are not pictures, you get none.
     ///
     /// # Errors
     /// The errors of [`Self::paint`].

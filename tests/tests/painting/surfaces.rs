@@ -307,7 +307,7 @@ fn what_cannot_be_is_told_as_in_a_script() {
     let (error, hint) = refusal(load("flat", "Lead White", 99.0));
     assert!(error.contains("holds") && hint.contains("wipe"), "{error} {hint}");
     let (error, _) = refusal(Action::Save { path: "a.exr".to_owned() });
-    assert_eq!(error, "a session saves nothing");
+    assert_eq!(error, "a session does not save files");
     let mut samples = along(&[(1.0, 1.0), (9.0, 9.0)], 0.5);
     samples[1].pressure = 1.5;
     session.begin_stroke(SurfaceId::Canvas, "flat").unwrap();

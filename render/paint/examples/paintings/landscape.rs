@@ -153,7 +153,7 @@ fn sky(script: &mut ScriptBuilder) {
     }
 }
 
-/// Added lightness of the sky by clouds, whirls and the sun, in steps of the blue mixtures.
+/// Number of steps by which clouds, whirls and the sun lighten the blue mixture of the sky.
 fn brightness((x, y): Place) -> f64 {
     2.6 * ring((112.0, 24.0), 11.0, 3.0, (x, y))
         + 2.2 * ring((146.0, 33.0), 6.5, 2.2, (x, y))

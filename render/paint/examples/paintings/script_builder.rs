@@ -15,15 +15,15 @@ use rand_chacha::ChaCha8Rng;
 /// Position on the canvas in mm.
 pub(crate) type Place = (f64, f64);
 
-/// Strokes with one mixture before the brush is loaded again.
-const FRESH: usize = 5;
+/// Number of strokes that a brush paints with one mixture before it is loaded again.
+const STROKES_PER_LOAD: usize = 5;
 
 /// A stroke script under construction.
 pub(crate) struct ScriptBuilder {
     /// The script so far.
     pub(crate) built: StrokeScript,
     random: ChaCha8Rng,
-    /// For each brush its last mixture and the strokes painted with it.
+    /// For each brush, its last mixture and the number of strokes painted with it.
     loaded: BTreeMap<String, (String, usize)>,
 }
 
@@ -58,7 +58,9 @@ impl ScriptBuilder {
     /// Washes a brush and loads it, unless it still holds enough of this mixture.
     pub(crate) fn fresh(&mut self, brush: &str, recipe: &str, vehicle: f64, amount_mm: f64) {
         match self.loaded.get_mut(brush) {
-            Some((before, strokes)) if before == recipe && *strokes < FRESH => *strokes += 1,
+            Some((before, strokes)) if before == recipe && *strokes < STROKES_PER_LOAD => {
+                *strokes += 1;
+            }
             _ => {
                 self.wash(brush);
                 self.load(brush, recipe, vehicle, amount_mm);
@@ -172,8 +174,8 @@ fn parts(recipe: &str) -> Recipe {
     found
 }
 
-/// The twist nearest to `before` that is equal to `angle` up to half a turn: a head is
-/// symmetric.
+/// The twist nearest to `before` that differs from `angle` by a multiple of 180 degrees. A head is
+/// symmetric, so both look alike.
 fn nearest_turn(angle: f64, before: f64) -> f64 {
     angle - 180.0 * ((angle - before) / 180.0).round()
 }

@@ -28,8 +28,8 @@ use crate::contact::{Contact, Touch};
 const ONE: f32 = 65536.0;
 
 /// Indices of the values that we interpolate over a facet: height in quanta, velocity along x and y
-/// in 1/256 cell per sub-step, speed weight, and paint cells around and along from the facet's
-/// first. All but the height are times 65536.
+/// in 1/256 cell per sub-step, speed weight, and the number of paint cells around and along from
+/// the facet's first cell. All except the height are multiplied by 65536.
 const HEIGHT: usize = 0;
 const X: usize = 1;
 const Y: usize = 2;
@@ -195,7 +195,7 @@ fn touching(touch: &&Touch) -> bool {
     touch.height != Touch::NONE.height
 }
 
-/// The touches of the `spans` of the rows, which are `width` long.
+/// The touches of all rows within their `spans`. A row has `width` touches.
 #[inline(always)]
 fn within<'a>(
     touches: &'a [Touch],
@@ -448,8 +448,9 @@ impl Imprint {
         self.extent
     }
 
-    /// Fills `out` with the contact that you evaluated last. `locks` has the lock of each column of
-    /// paint cells. `border` tells you where its sides are, if the head moved.
+    /// Fills `out` with the contact of the surface that you evaluated last. `locks` has the lock of
+    /// each column of paint cells. `border` tells you where the sides of the contact are, if the
+    /// head moved.
     pub(super) fn draw(
         &mut self,
         locks: &[Lock],
@@ -532,10 +533,10 @@ impl WithSimd for Draw<'_> {
     }
 }
 
-/// A vertex of the footprint: position, height in quanta, velocity and speed weight (0 up to
-/// 0.2 cells per sub-step, full from 0.3, and at least the weight at a speed of `pressed`), both
-/// times
-/// `grasp`. Where the surface would be below the relief, it is raised to it.
+/// A vertex of the footprint: position, height in quanta, velocity and speed weight. Velocity and
+/// weight are multiplied by `grasp`. The weight is 0 up to a speed of 0.2 cells per sub-step and
+/// full from 0.3. If `pressed` exceeds the speed, it counts as the speed. A vertex below the relief
+/// is raised to it.
 #[inline(always)]
 fn finished(vertex: &Point, relief: f32, grasp: f32, pressed: f32) -> Point {
     let &[x, y, z, _, dx, dy, dz, _] = vertex;
@@ -598,7 +599,7 @@ impl Extent {
         (x - self.pen.0) * self.across.0 + (y - self.pen.1) * self.across.1
     }
 
-    /// Extends it to a point of the head that touches.
+    /// Extends the extent so that it includes a touching point of the head.
     #[inline(always)]
     pub(super) fn include(&mut self, x: f32, y: f32) {
         let at = self.at(x, y);
@@ -631,8 +632,8 @@ pub(super) struct Border {
 }
 
 impl Border {
-    /// Thickens the coat near the sides of `contact`, and slows the cells at the very sides.
-    /// Positions in it count from the cell `origin`. `spans` are the columns of its rows that may
+    /// Thickens the coat near the sides of `contact`, and slows the cells at the very sides. The
+    /// extent counts positions from the cell `origin`. `spans` are the columns of its rows that may
     /// have touches.
     #[inline(always)]
     pub(super) fn shape(
@@ -675,13 +676,14 @@ mod tests {
     use super::*;
     use graphics::tile::Rect;
 
-    /// Coats across a contact of 40 x 3 cells after a head moved by `moved` cells over it.
+    /// Coat at each touch in the middle row of a contact of 40 x 3 cells, after the head moved by
+    /// `moved` cells.
     fn coats(moved: (f32, f32)) -> Vec<u32> {
         touches(moved, 10.0).iter().map(Touch::release).collect()
     }
 
-    /// Touches of the middle row of such a contact. The head reaches from `side` to 50 cells along
-    /// x.
+    /// Touches of the middle row of a contact of 40 x 3 cells, after the head moved by `moved`
+    /// cells. The head reaches from `side` to 50 cells along x.
     fn touches(moved: (f32, f32), side: f32) -> Vec<Touch> {
         let rect = Rect { x: 10, y: 20, width: 40, height: 3 };
         let touch = Touch::new(0, 0, (200, -100), 256, 1);

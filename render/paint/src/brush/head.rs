@@ -95,7 +95,7 @@ impl Head {
         })
     }
 
-    /// This head with other locks of hair. For each seed you get locks of its own.
+    /// This head with other locks of hair. Each seed gives different locks.
     #[must_use]
     pub fn with_locks(self, seed: u64) -> Self {
         Self { locks: self.locks.seeded(seed), ..self }
@@ -139,8 +139,8 @@ impl Head {
         self.sub_step
     }
 
-    /// Area of a paint cell, in cells of the canvas. For example, paint `d` mm thick on the head
-    /// takes a column of `d` times this area in each of its cells.
+    /// Area of a paint cell, in cells of the canvas. For example, if the paint on the head is `d`
+    /// mm thick, each paint cell holds a column of `d` times this area, in mm.
     #[must_use]
     pub fn paint_cell_area(&self) -> f64 {
         self.paint_cell_area
@@ -152,7 +152,8 @@ impl Head {
         self.sides.lift();
     }
 
-    /// Lifts the head, but leaves the sides of its contact. They follow once you draw it.
+    /// Lifts the head, but does not forget the sides of its last contact. The sides of the next
+    /// contact start from these.
     fn straighten(&mut self) {
         (self.origin, self.hovering) = (None, None);
         self.locks.lift();
@@ -219,9 +220,9 @@ impl Head {
         self.imprint.draw(&self.locks.columns, &hold, border, bounds, out);
     }
 
-    /// Bends the head at `pose`. This is all of [`Head::advance`] but the touches of `out` and the
-    /// sides of the contact. Returns whether the head was lifted before, and how you hold it now
-    /// unless it stays lifted.
+    /// Bends the head at `pose`. This does the work of [`Head::advance`] except for the touches of
+    /// `out` and the sides of the contact. Returns whether we lifted the head from its last
+    /// position, and how you hold it now unless it stays lifted.
     pub(super) fn bend(
         &mut self,
         pose: &Pose,
@@ -278,8 +279,8 @@ impl Head {
         (lifted, Some(hold))
     }
 
-    /// Way in cells of the sides of the head from the last sub-step to `pose`. If you press or lift
-    /// it on the spot, this is 0, and it does not drag paint along.
+    /// Distance in cells by which the sides of the head move from the last sub-step to `pose`. If
+    /// you press or lift the head on the spot, this is 0, and the head does not drag paint along.
     fn travelled(&self, pose: &Pose) -> f64 {
         let Some(last) = self.last else { return 0.0 };
         let turned = (pose.twist_deg - last.twist_deg).to_radians().abs();

@@ -132,8 +132,7 @@ fn moved(to: i64, from: i64, to_part: f32, from_part: f32) -> f32 {
     (to - from) as f32 + to_part - from_part
 }
 
-/// Coat of a head, and the distances in mm that it moves while differences between head and canvas
-/// fall to 1/e.
+/// Coat of a head, and the distances in mm over which it exchanges paint with the canvas.
 struct Uptake {
     /// Thickness of the coat relative to the paint on the head: at pressure 0, and how much full
     /// pressure adds.
@@ -145,25 +144,25 @@ struct Uptake {
     drag: f64,
     /// Share of the wet paint from before the stroke that bears the head at pressure 0.
     bearing: f64,
-    /// For a film thinner than the coat.
+    /// Distance over which the lack of a film thinner than the coat falls to 1/e.
     deposit_mm: f64,
-    /// For a film thicker than the coat.
+    /// Distance over which the surplus of a film thicker than the coat falls to 1/e.
     pick_up_mm: f64,
-    /// For the colours of both sides.
+    /// Distance over which the difference between the colours of head and canvas falls to 1/e.
     mixing_mm: f64,
-    /// For the paint along a hair.
+    /// Distance over which the differences of paint along a hair fall to 1/e.
     wicking_mm: f64,
     /// Distance between two flows of paint over the head.
     wicking_every_mm: f64,
-    /// Number of flows until all hairs have had their turn. They do not fill in step, because this
-    /// would leave beads along a stroke.
+    /// Number of flows until all hairs have had their turn. If all hairs filled at once, a stroke
+    /// would show beads.
     turns: u32,
     /// Width of the groups of hairs that level together. 0 if each hair levels alone.
     spread_mm: f64,
 }
 
-/// We chose these by the measured thickness of films (0.2 of the load of a flat at middle
-/// pressure).
+/// We chose these by the measured thickness of films. For example, a flat at middle pressure leaves
+/// a film of 0.2 times its load.
 const HAIR: Uptake = Uptake {
     coat: (0.1, 0.56),
     film_mm: 0.0,
@@ -235,13 +234,13 @@ pub(super) fn rates(
     }
 }
 
-/// Length of hair in mm beyond which paint flows along it less often, in proportion. On long hair,
-/// the paint that a stroke takes from the tip changes the mean less, and the coat follows this
-/// mean.
+/// Length of hair in mm above which paint flows along it less often, in inverse proportion to its
+/// length. A stroke takes paint from the tip, which changes the mean of long hair less, and the
+/// coat follows this mean.
 const LONG_HAIR_MM: f64 = 20.0;
 
-/// Number of rows of paint cells, from the tip, that hold the paint of a head: all `rows` of hair,
-/// the bank at the edge of a blade. A row is `row_mm` long.
+/// Number of rows of paint cells, from the tip, that hold the paint of a head: all `rows` for hair,
+/// only the bank at the edge for a blade. A row is `row_mm` long.
 pub(super) fn rows_with_paint(of: &Proportions, rows: usize, row_mm: f64) -> usize {
     if of.rigid { ((BANK_MM / row_mm).ceil() as usize).clamp(1, rows) } else { rows }
 }
@@ -284,7 +283,7 @@ mod tests {
         Locks::new(seed, 60, 0.1, (0.05, 0.6), 0.1)
     }
 
-    /// Locks after a way of 50 cells from `x`.
+    /// Locks after the head moved by 50 cells from `x`.
     fn after_a_stroke(mut locks: Locks, x: f64) -> Vec<Lock> {
         locks.lift();
         for step in 0..50 {

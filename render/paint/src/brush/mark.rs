@@ -13,8 +13,8 @@ use crate::pose::Pose;
 /// Number of sub-steps after which a resting head has settled.
 const SETTLED: usize = 8;
 
-/// Extent of the plane relative to the width of the head, on each side of the pen: the hair of the
-/// longest heads splays less.
+/// Extent of the plane on each side of the pen, relative to the width of the head. Even the hair of
+/// the longest heads does not splay this far.
 const REACH: f64 = 4.0;
 
 /// Cells that a clean head touches on a plane.
@@ -107,10 +107,10 @@ mod mark_tests {
 
     const CELL_MM: f64 = 0.2;
     const BOUNDS: Rect = Rect { x: 0, y: 0, width: 600, height: 600 };
-    /// Length of a stroke, and the length after which we measure the mark, in cells.
+    /// Length of a stroke, and the length from which on we measure its mark, in cells.
     const WAY: (u32, u32) = (150, 100);
-    /// Leans, with the heading of the stroke.
-    const HOLDS_DEG: [(f64, f64); 7] = [
+    /// Leans of the handle, each with the heading of the stroke.
+    const LEANS_AND_HEADINGS_DEG: [(f64, f64); 7] = [
         (0.0, 0.0),
         (0.0, 127.0),
         (10.0, 127.0),
@@ -141,7 +141,8 @@ mod mark_tests {
         pressure: f64,
     }
 
-    /// The mark of a straight stroke over a plane, across which the head lies.
+    /// The mark of a straight stroke over a plane. The broad side of the head lies across the
+    /// stroke.
     #[derive(Debug, Clone, Copy)]
     struct Mark {
         width_mm: f64,
@@ -149,7 +150,7 @@ mod mark_tests {
         offset_mm: f64,
         /// Distance from the middle of the contact to the pen, along the path.
         behind_mm: f64,
-        /// Largest distance along the way from the middle of a contact to the pen.
+        /// Largest distance along the path from the middle of a contact to the pen.
         farthest_mm: f64,
         /// Standard deviation of the contact's area over its mean.
         unsteadiness: f64,
@@ -220,8 +221,8 @@ mod mark_tests {
         of.iter().sum::<f64>() / of.len() as f64
     }
 
-    /// The mark of `hand`, and its worst figures over all eight directions of its lean. For widths
-    /// you get the widest range, for the others the figure farthest from 0.
+    /// Worst figures of the marks of `hand` over eight directions of its lean: the least and the
+    /// greatest width, and of each other figure the value farthest from 0.
     fn worst(shape: HeadShape, size_mm: f64, hand: Hand) -> [f64; 6] {
         let mut worst = [f64::INFINITY, 0.0, 0.0, 0.0, 0.0, 0.0];
         for octant in 0..8 {
@@ -242,7 +243,7 @@ mod mark_tests {
         println!("head      size lean   width (mm)    offset  behind (most)  unsteady");
         let mut outside = Vec::new();
         for (shape, size_mm) in HEADS {
-            for (lean_deg, heading_deg) in HOLDS_DEG {
+            for (lean_deg, heading_deg) in LEANS_AND_HEADINGS_DEG {
                 let hand = Hand { lean_deg: 0.0, towards_deg: 0.0, heading_deg, pressure: 0.5 };
                 let upright_mm = mark(shape, size_mm, hand).width_mm;
                 let found = worst(shape, size_mm, Hand { lean_deg, ..hand });

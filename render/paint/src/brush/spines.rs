@@ -233,8 +233,8 @@ const PRESSED: f32 = 0.6;
 /// How far pressed hair bends towards its trail before it reaches the canvas (chosen by eye).
 const ARC: f32 = 0.8;
 
-/// Position of the contact in slanting hair, from its core (0) to the side that faces the canvas
-/// (1). We fitted this to the contacts of all shapes.
+/// Position of the contact within slanting hair, from the core of the hair (0) to the side that
+/// faces the canvas (1). We fitted this to the contacts of all shapes.
 const INWARDS: f32 = 0.7;
 
 /// Number of points of a segment at which we look for contact.
@@ -246,7 +246,7 @@ pub(super) fn sink_mm(pressure: f32) -> f32 {
     0.01 + 0.24 * pressure
 }
 
-/// Hair of a head, without its place. Lengths are in cells.
+/// Hair of a head, without its position. Lengths are in cells.
 pub(super) struct Hair<'a> {
     /// Horizontal direction in which hair lies, at most 1 long.
     pub(super) trail: Vector,
@@ -271,14 +271,15 @@ pub(super) struct Laid {
 }
 
 impl Hair<'_> {
-    /// Direction of the segment that ends at `level`, if it bends by `arc` of its trail.
+    /// Direction of the segment that ends at `level`. `arc` says how far the hair bends towards its
+    /// trail, for example 0 for unpressed hair.
     fn direction(&self, level: usize, arc: f32) -> Vector {
         let share = (level as f32 - 0.5) / (NODES - 1) as f32;
         let upright = self.axis * (share - 1.0) - Vector::UP * share;
         (upright + self.trail * (arc * share * share)).unit_or(-Vector::UP)
     }
 
-    /// Distance from the ferrule down to the lowest point of hair that nothing presses.
+    /// Distance from the ferrule down to the lowest point of unpressed hair.
     pub(super) fn lowest(&self) -> f32 {
         let segment = self.length / (NODES - 1) as f32;
         let mut down = 0.0;
@@ -294,8 +295,7 @@ impl Hair<'_> {
         lowest
     }
 
-    /// Distance down from the ferrule to a point of hair that nothing presses, at `share` of its
-    /// length.
+    /// Distance from the ferrule down to the point at `share` of the length of unpressed hair.
     pub(super) fn drop(&self, share: f32) -> f32 {
         let segment = self.length / (NODES - 1) as f32;
         (1..NODES)

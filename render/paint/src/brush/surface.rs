@@ -15,8 +15,9 @@ use super::spines::{FLATTENED, Grip, Spines, Vector, b_spline};
 const ALONG: f32 = 4.0;
 const AROUND: f32 = 6.0;
 
-/// Longest spans along the head and around it, in paint cells, with facets of that length. For
-/// example, a round brush of 60 cells has these.
+/// Maximum lengths of spans along the head and around it, in paint cells, for facets of [`ALONG`]
+/// and [`AROUND`] cells. Longer spans have longer facets. For example, a round brush of 60 cells
+/// has spans of these lengths.
 const SPAN_ALONG: f32 = 30.0;
 const SPAN_AROUND: f32 = 24.0;
 

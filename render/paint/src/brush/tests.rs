@@ -33,8 +33,8 @@ fn set_down(shape: HeadShape, pose: Pose) -> Contact {
     contact
 }
 
-/// Cells with their touches at which the head is below the top of a film of `mm` mm. We let its
-/// hair sink in by half of the allowed depth.
+/// Column, row and touch of the cells at which the head is below the top of a film of `mm` mm. We
+/// let its hair sink in by half of the allowed depth.
 fn under(contact: &Contact, mm: f64) -> Vec<(usize, usize, Touch)> {
     let top = (mm / 0.1 * f64::from(QUANTA_PER_CELL)) as i32 + (contact.rates.sink / 2) as i32;
     let cells = contact.touches.iter().enumerate().filter(|(_, touch)| touch.height <= top);
@@ -109,7 +109,8 @@ fn the_tip_trails_behind_the_motion() {
             assert!((middle - 160.0).abs() < 5.0, "{shape}, {way}: {middle}");
         }
 
-        /// The head is set down bent for the opposite motion.
+        /// Pose at `step` of a stroke along x in the direction `way`. Before it, the head is set
+        /// down bent for the opposite direction.
         fn pose_at(step: f64, way: f64) -> Pose {
             Pose { x: 160.0 + way * (step - 90.0), twist_deg: 90.0, ..POSE }
         }

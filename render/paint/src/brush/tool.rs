@@ -24,8 +24,8 @@ use crate::pose::Pose;
 /// Use of a head on the wet paint below it.
 ///
 /// With every tool but [`StrokeTool::Paint`] the head is clean. We set the paint on the brush aside
-/// for the stroke, and at its end we take off the surface the paint that the head holds. Dry paint
-/// never moves.
+/// for the stroke. At the end of the stroke, the paint that the clean head holds is removed from
+/// the surface. Dry paint never moves.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum StrokeTool {
     /// Paints with what is on the brush.
@@ -129,7 +129,8 @@ const EDGE_MM: f64 = 0.3;
 /// strength (chosen by the measured width of a blended edge).
 const MIX_MM: f64 = 1.0;
 
-/// Distances in mm over which a mop fills at full strength, and over which it lays again.
+/// Distance in mm over which a mop fills at full strength. [`LAY_MM`] is the distance over which it
+/// lays the paint down again.
 const FILL_MM: f64 = 12.0;
 const LAY_MM: f64 = 0.5;
 
@@ -140,11 +141,11 @@ const DRAG: f64 = 0.5;
 /// so that the mop is full when it holds a quarter of the film below it.
 const MOP_RELEASE: u32 = 127;
 
-/// Part of the head, from its end, in which a mop holds paint.
+/// A mop holds paint in the last 1 / `TIP` of the head.
 const TIP: usize = 3;
 
-/// Distance in mm by which the hair of a mop sways to each side at full strength, so that colours
-/// beside each other mix too, and the way in mm on which it sways there and back.
+/// Distance in mm by which the hair of a mop sways to each side at full strength, so that
+/// neighbouring colours mix too. It sways there and back over [`SWAY_EVERY_MM`] of a stroke.
 const SWAY_MM: f64 = 1.0;
 const SWAY_EVERY_MM: f64 = 3.0;
 

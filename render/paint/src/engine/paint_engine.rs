@@ -253,8 +253,8 @@ impl PaintEngine {
 }
 
 impl PaintEngine {
-    /// Covers cells of the canvas, or none. The contacts that follow do not change the paint of
-    /// covered cells.
+    /// Covers the cells of `mask`, or no cell if you pass `None`. The contacts that follow do not
+    /// change the paint of covered cells.
     ///
     /// # Panics
     /// If the mask is of another canvas.
@@ -270,9 +270,9 @@ impl PaintEngine {
         }
     }
 
-    /// Records the surface of the paint in a tile: in the contacts that follow, loaded hair rides
-    /// on this until you record the tile again. See [`bed`](crate::motion::bed). Before the first
-    /// time we do not know it, so it does not bear hair.
+    /// Records the surface of the paint in a tile. In the contacts that follow, loaded hair rides
+    /// on this surface until you record the tile again. See [`bed`](crate::motion::bed). A tile
+    /// that you never recorded does not bear hair.
     ///
     /// # Panics
     /// If the tile lies outside the canvas.

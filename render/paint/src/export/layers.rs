@@ -1,10 +1,10 @@
-//! The layers of a painting as an OpenRaster file. We write films as colours with opacity, for
-//! programs that know nothing else.
+//! The layers of a painting as an OpenRaster file. We write each film as colour with opacity,
+//! because other programs cannot mix paint.
 //!
 //! Light passes through a film of paint twice and scatters on its way, so you cannot blend a film
-//! with the colour below by one share of opacity. But at one pixel, over one colour, you can reach
-//! every colour. With `b` the colour below and `c` the colour with the film, both as stored
-//! (encoded sRGB, 0 to 1), programs show
+//! with the colour below by one share of opacity. But at one pixel, over one known colour, some
+//! opacity and colour show exactly what the film shows. With `b` the colour below and `c` the
+//! colour with the film, both as stored (encoded sRGB, 0 to 1), programs show
 //! ```text
 //! c = a f + (1 - a) b
 //! ```

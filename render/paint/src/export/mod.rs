@@ -72,7 +72,7 @@ impl PaintingExports {
     ///
     /// # Errors
     /// [`PaintingExportError`] if we cannot compute the painting or cannot encode or write a file.
-    /// The files before this one are on the disk.
+    /// Files that we wrote before the error stay on the disk.
     pub fn write(
         &self,
         painting: &mut Painting,

@@ -107,7 +107,7 @@ pub struct ChannelNames {
 }
 
 impl ChannelNames {
-    /// Names for pigments beside the other channels of the part, `reserved`.
+    /// Gives names that differ from `reserved`, the names of the other channels of the part.
     #[must_use]
     pub fn beside(reserved: &[&str]) -> Self {
         Self { taken: reserved.iter().map(|&name| name.to_owned()).collect() }

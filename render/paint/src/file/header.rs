@@ -40,7 +40,7 @@ pub(super) struct FileHeader {
     pub(super) lighting: Lighting,
     /// The wet layer, then the dry layers from the lowest.
     pub(super) layers: Vec<LayerHeader>,
-    /// Brushes beside a palette. Beside a canvas this is empty.
+    /// Brushes that are stored with a palette. For a canvas this is empty.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) brushes: Vec<BrushHeader>,
     library: Value,
@@ -70,7 +70,7 @@ pub(super) struct BrushPaintHeader {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PaintHeader<'a> {
     pub(super) part: &'a str,
-    /// Columns and rows of cells that its window lies in.
+    /// Number of columns and rows of cells that the window of the part must fit into.
     pub(super) size: (usize, usize),
     pub(super) pigments: &'a [PigmentChannel],
 }
@@ -292,8 +292,9 @@ impl LayerAttribute {
             .map_err(|error| PaintingFileError::Unwritable { reason: error.to_string() })
     }
 
-    /// Description of the layer at `index`, from 0. `part` is its part. If a file does not have the
-    /// attribute, the layer is visible, does not have a name, and has its place as identity.
+    /// Description of the layer at `index`, from 0. `part` is the part of the file that holds it.
+    /// If a file does not have the attribute, the layer is visible, does not have a name, and has
+    /// its place as identity.
     pub(super) fn from_part(
         file: &str,
         part: &Header,

@@ -359,7 +359,7 @@ pub const EXPANSION: u64 = 1100;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct PartLayout {
     pub(super) name: String,
-    /// Index of the header's paint that the part holds. `None` for the ground.
+    /// Index among `FileHeader::paints` of the paint that the part holds. `None` for the ground.
     pub(super) layer: Option<usize>,
     pub(super) window: Rect,
     pub(super) channels: usize,
@@ -476,8 +476,8 @@ fn check_part(
     Ok(PartLayout { name, layer, window, channels, planes })
 }
 
-/// Cells that a part covers within its `room`. The ground does not have a room and must cover the
-/// whole canvas.
+/// Cells that a part covers. They must lie within `room` (columns and rows). The ground does not
+/// have a `room` and must cover the whole canvas.
 fn window(
     fault: &Fault<'_>,
     part: &Header,

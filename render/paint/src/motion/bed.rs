@@ -29,9 +29,9 @@ pub fn between(place: usize, blocks: usize) -> (usize, usize, i32) {
     (second.saturating_sub(1), second.min(blocks - 1), 2 * cell as i32 + 1)
 }
 
-/// Mean of two heights, times 16, with the `share` of the second one in parts of 16. To get the
-/// height of the bed in quanta, take this for the blocks above each other, and then for these means
-/// side by side.
+/// Mean of two heights, times 16. `share` is the weight of the second one in parts of 16. To get
+/// the height of the bed in quanta, apply this along one axis and then to the two results along the
+/// other.
 #[inline(always)]
 #[must_use]
 pub fn weighted((first, second): (i32, i32), share: i32) -> i32 {

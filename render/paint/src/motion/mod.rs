@@ -7,26 +7,26 @@
 //! stroke hardly depends on the size of the cells.
 //!
 //! # A sub-step
-//! On the contact's rectangle grown by two cells, within the canvas, the reach:
+//! The reach is the contact's rectangle grown by two cells, within the canvas. In it we compute:
 //!
-//! 1. If the contact has [`wicking`](crate::contact::Contact::wicking), paint flows along the
-//!    hair of the head, and the mean volume of each hair is taken anew: see [`wick`].
-//!    [`press::penetration`] of each touched cell, from the floor, the wet volume, the [`bed`] of
-//!    the stroke and the [`press::coat`] of the head at the start, and [`press::NO_CONTACT`]
-//!    everywhere else.
-//! 2. [`press::flow`] between each cell of the rectangle grown by one and its neighbours in x
-//!    and y. Beyond the reach, the nearest cell of the reach counts. [`press::velocity`] of
-//!    each of these cells from its flows and from [`press::dragged`]. A component that would
-//!    carry paint off the canvas is set to 0. Near crowded columns
-//!    [`press::avoid_crowded_columns`] applies. Unless [`MotionConstants::everywhere`] is 1, only
-//!    cells move that have a penetration or have a neighbour, of eight, with one.
-//! 3. [`advect::outflow`] of each of these cells, from the amounts at the start, for all
-//!    cells at once.
-//! 4. [`transfer::exchange`] for every cell that was in contact in step 1, with that
-//!    penetration: between the cell of the canvas as step 3 left it and the cell of the
-//!    head as it was at the start, for all cells at once. The transfers of several cells
-//!    with one cell of the head add up. As none takes more than half of its share, the
-//!    head's amounts never fall below zero.
+//! 1. If the contact has [`wicking`](crate::contact::Contact::wicking), paint first flows along the
+//!    hair of the head, and we compute the mean volume of each hair again: see [`wick`].
+//!    Then we compute the [`press::penetration`] of each touched cell from the floor, the wet
+//!    volume, the [`bed`] of the stroke and the [`press::coat`] of the head at the start. All other
+//!    cells get [`press::NO_CONTACT`].
+//! 2. We compute the [`press::flow`] between each cell of the rectangle grown by one cell and its
+//!    neighbours in x and y. Beyond the reach, the nearest cell of the reach counts. The
+//!    [`press::velocity`] of each of these cells follows from its flows and from
+//!    [`press::dragged`]. We set a component to 0 that would carry paint off the canvas. Near
+//!    crowded columns we apply [`press::avoid_crowded_columns`]. Unless
+//!    [`MotionConstants::everywhere`] is 1, a cell only moves if it or one of its eight neighbours
+//!    is in contact.
+//! 3. We compute the [`advect::outflow`] of each of these cells from the amounts at the start, for
+//!    all cells at once.
+//! 4. For every cell in contact, we compute the [`transfer::exchange`] with its penetration from
+//!    step 1: between the cell of the canvas as step 3 left it and the cell of the head as it was
+//!    at the start, for all cells at once. The transfers of several cells with one cell of the head
+//!    add up. As none takes more than half of its share, the head's amounts never fall below zero.
 //!
 //! A cell that a [mask](crate::mask) covers is never in contact, and counts as crowded: its paint
 //! neither moves nor gets more.
@@ -56,7 +56,7 @@ pub struct MotionConstants {
     /// Difference in height between two columns, in quanta, that the paint bears without flowing.
     /// This is its yield.
     pub yield_quanta: u32,
-    /// Share of a kink of single cells that is levelled in a sub-step, in parts of 65536. Up
+    /// Share of a crest or pit one cell wide that is levelled in a sub-step, in parts of 65536. Up
     /// to 8192.
     pub levelling_share: u32,
     /// Height in quanta that always stays behind when a column moves. Below 65536.

@@ -25,7 +25,7 @@ pub const CELL_A_SUB_STEP: i32 = 1 << 14;
 /// Largest velocity of flow: half a column in a sub-step.
 const FASTEST_FLOW: u32 = 1 << 13;
 
-/// Thickness of the paint, relative to the coat of a head, that may bear its hair.
+/// Maximum thickness of the paint that bears hair, relative to the coat of the head.
 const BORNE: u32 = 2;
 
 /// Thickness in quanta of the film that a head leaves when you press it down on the ground: the
@@ -44,10 +44,10 @@ pub fn coat(rates: &ExchangeRates, touch: Touch, mean: u32) -> u32 {
 /// the wet paint on it, both in quanta. Pressed hair sinks between the crests of the ground unless
 /// its coat is thick enough to bear it, so a thick film hides a weave.
 ///
-/// A loaded head rides on a share of the paint that was there before the stroke, from the ground
-/// under the hair up to `bed`, the height of that paint in quanta, as far as twice its coat, and
-/// lays its coat on that. A clean head digs in. It is never borne higher than its coat above the
-/// paint that is there now.
+/// A loaded head rides on a share of the paint that was there before the stroke, and lays its coat
+/// on that. This paint reaches from the ground under the hair up to the height `bed` in quanta. We
+/// count at most twice the thickness of the coat. A clean head does not have a coat, so it digs in.
+/// Hair is never borne higher than its coat above the paint that is there now.
 #[inline(always)]
 #[must_use]
 pub fn penetration(
@@ -102,11 +102,11 @@ pub fn pressure(motion: &MotionConstants, penetration: i32) -> i32 {
 }
 
 /// Paint that flows from the column `here` to `next` in one sub-step, in quanta. Negative if it
-/// flows back. `before` is the top of the column on the other side of `here`, `beyond` that
-/// after `next`.
+/// flows back. `before` is the top of the column on the other side of `here`, `beyond` the top of
+/// the column after `next`.
 ///
-/// Three flows add up: under the head from high pressure to low, where the slope exceeds the
-/// yield, and from crests to pits that are one cell wide.
+/// Three flows add up. Under the head, paint flows from high pressure to low. Where the slope
+/// exceeds the yield, it flows downhill. It also flows from crests to pits that are one cell wide.
 #[inline(always)]
 #[must_use]
 pub fn flow(motion: &MotionConstants, before: i32, here: Column, next: Column, beyond: i32) -> i32 {
@@ -129,9 +129,10 @@ fn with_sign_of(sign: i32, size: i32) -> i32 {
     if sign < 0 { -size } else { size }
 }
 
-/// Velocity of a column of `volume` quanta along one axis, in 1/16384 cell a sub-step, at most
-/// a cell: the head's velocity, 0 without contact, and the larger of its outflows. `before` is the
-/// flow from the neighbour before it, `after` the flow to the neighbour after it, in quanta.
+/// Velocity of a column of `volume` quanta along one axis, in 1/16384 cell a sub-step, at most a
+/// cell. This is the velocity `head` that the head gives to the column (0 without contact) plus the
+/// velocity of its larger outflow. `before` is the flow from the neighbour before it, `after` the
+/// flow to the neighbour after it, in quanta.
 #[inline(always)]
 #[must_use]
 pub fn velocity(head: i32, volume: u32, before: i32, after: i32) -> i32 {

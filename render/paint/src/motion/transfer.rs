@@ -28,9 +28,8 @@ pub struct Exchange {
 ///
 /// `penetration` (nothing moves at [`NO_CONTACT`](super::press::NO_CONTACT)) and `coat` are the
 /// values at the start of the sub-step, in quanta. The volumes are the volumes of the two cells
-/// now, in quanta.
-/// `leaving` is the velocity of the head over the edge of the canvas, in 1/256 cell: paint that
-/// would leave with half of it goes onto the head.
+/// now, in quanta. `leaving` is the velocity of the head over the edge of the canvas, in 1/256 cell
+/// a sub-step. Paint that would leave the canvas at half of this velocity goes onto the head.
 #[inline(always)]
 #[must_use]
 pub fn exchange(
@@ -85,8 +84,8 @@ mod tests {
 
     const TOUCH: Touch = Touch { height: 0, brush_cell: 0, velocity: 0, weights: 256 | 1 << 16 };
 
-    /// Film after 60 sub-steps on a flat ground, from `film` quanta, and the paint that the head
-    /// has won. All in quanta. The head's coat is `coat` quanta thick and does not change.
+    /// Film on a flat ground after 60 sub-steps that start with `film`, and the paint that the head
+    /// has gained. All in quanta. The head's coat is `coat` quanta thick and does not change.
     fn painted(rates: &ExchangeRates, coat: u32, film: u32) -> (u32, i64) {
         let mut canvas = film;
         let mut brush = 50_000_000_u32;

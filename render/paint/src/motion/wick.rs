@@ -9,7 +9,7 @@
 
 use crate::amount::{ratio_of_65536, share_of_65536};
 
-/// We sum volumes in units of this power of two of quanta, so that sums fit into 32 bits.
+/// We sum volumes in units of 2^10 quanta, so that sums fit into 32 bits. This is the exponent.
 pub const UNIT_BITS: u32 = 10;
 
 /// Mean volume in units of a column of `count` cells whose volumes sum to `sum` units.

@@ -216,8 +216,8 @@ pub(super) fn share_of_65536_parts(what: &'static str, value: f64) -> Result<u32
     Ok((value * 65536.0).round() as u32)
 }
 
-/// Part of the head, from its end, that counts as its tip: about as much as lies on the canvas
-/// at middle pressure.
+/// The last 1 / `TIP` of the head counts as its tip: about as much as lies on the canvas at middle
+/// pressure.
 const TIP: usize = 3;
 
 /// Paint at the tip of a brush: the third of the head that lies on the canvas, all around.

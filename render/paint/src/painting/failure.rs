@@ -37,7 +37,7 @@ pub enum PaintingError {
         value: f64,
     },
     /// A recipe has no parts above 0, or a negative part.
-    #[error("a recipe needs parts above 0, none below, unless it is vehicle alone")]
+    #[error("a recipe needs parts above 0 and none below 0, unless the paint is vehicle alone")]
     NoMixture,
     /// A place lies beside the canvas.
     #[error("there is no canvas {x_mm} mm from its left and `{y_mm}` mm from its upper edge")]
@@ -58,7 +58,7 @@ pub enum PaintingError {
         y_mm: f64,
     },
     /// A recipe has parts of a slot without pigment.
-    #[error("no pigment is squeezed out in slot {slot}")]
+    #[error("slot {slot} of the palette holds no pigment")]
     EmptySlot {
         /// Index of the slot, from 0.
         slot: usize,
@@ -101,7 +101,7 @@ pub enum PaintingError {
     },
     /// The pigment is not on the palette now.
     #[error("{pigment} is not on the palette now")]
-    #[hint("put it there with a palette action, or undo less")]
+    #[hint("put it there with a palette action, or undo fewer actions")]
     OffPalette {
         /// Name of the pigment.
         pigment: String,
@@ -133,7 +133,7 @@ pub enum PaintingError {
     #[error("there is no dry layer below this one")]
     #[hint("name the other layer with `with`")]
     NothingBelow,
-    /// Of two layers to merge one is hidden.
+    /// One of two layers to merge is hidden, and the other is not.
     #[error("one of the two layers is hidden")]
     #[hint("show both, or hide both")]
     UnlikeVisibility,
@@ -207,15 +207,15 @@ pub enum PaintingError {
         /// Name of what differs.
         what: &'static str,
     },
-    /// The action saves a file. Sessions do not write files, their owner does.
-    #[error("a session saves nothing")]
-    #[hint("write the documents of the session")]
+    /// The action saves a file. Sessions do not write files, so you must save their documents.
+    #[error("a session does not save files")]
+    #[hint("save the documents of the session yourself")]
     Save,
     /// There is no open stroke, or it was lifted.
     #[error("no stroke is open")]
     #[hint("set the brush down first")]
     NoStroke,
-    /// An action other than light, gloss and opacity was adjusted.
+    /// An action other than light, gloss, stiffness and opacity was adjusted.
     #[error("`{kind}` cannot be adjusted bit by bit")]
     #[hint("light, gloss, stiffness and opacity can be")]
     NoControl {

@@ -279,7 +279,7 @@ impl Painting {
 /// Largest colour difference that a merge may make, in CIEDE2000.
 pub const MERGE_TOLERANCE: f64 = 0.1;
 
-/// A merge that was found possible.
+/// A merge that the checks of `possible_merge` accept.
 struct Merge {
     /// Index of the lower layer.
     lower: usize,

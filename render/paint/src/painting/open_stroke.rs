@@ -1,8 +1,9 @@
 //! The open stroke: one state machine from the first sample to the last sub-step, and whole
 //! strokes.
 //!
-//! The head bends through sub-steps in batches while others are painted. A tool works with a clean
-//! head: the paint of the brush is set aside, and the paint that the tool takes off is counted.
+//! The head bends through one batch of sub-steps while the batch before is painted. A tool works
+//! with a clean head: the paint of the brush is set aside, and the paint that the tool takes off is
+//! counted.
 
 use graphics::gpu::DeviceError;
 use graphics::tile::{Rect, Tile, TileSet};
@@ -561,10 +562,11 @@ const EMPTIED_EVERY: usize = 128;
 #[derive(Debug)]
 struct CleanHead {
     brush: BrushId,
-    /// Paint of the brush.
-    kept: Layer,
+    /// Paint of the brush, which the brush gets back at the end of the stroke.
+    set_aside: Layer,
     taken: TakenPaint,
-    /// Number of sub-steps since the head was emptied. `None` if it lays its paint again.
+    /// Number of sub-steps since the head was emptied. `None` for a tool that lays its paint down
+    /// again.
     since: Option<usize>,
 }
 
@@ -580,9 +582,9 @@ impl CleanHead {
             StrokeTool::Blend { .. } => None,
             StrokeTool::Scrape { .. } | StrokeTool::Erase { .. } => Some(0),
         };
-        let kept = engine.brush_paint(brush)?;
-        engine.set_brush_paint(brush, &Layer::empty(kept.width(), kept.height()))?;
-        Ok(Some(Self { brush, kept, taken: TakenPaint::default(), since }))
+        let set_aside = engine.brush_paint(brush)?;
+        engine.set_brush_paint(brush, &Layer::empty(set_aside.width(), set_aside.height()))?;
+        Ok(Some(Self { brush, set_aside, taken: TakenPaint::default(), since }))
     }
 
     /// Number of sub-steps that may be painted before the head is emptied.
@@ -604,13 +606,16 @@ impl CleanHead {
 
     fn empty(&mut self, engine: &mut PaintEngine) -> Result<(), DeviceError> {
         self.taken.add(&engine.brush_paint(self.brush)?);
-        engine.set_brush_paint(self.brush, &Layer::empty(self.kept.width(), self.kept.height()))
+        engine.set_brush_paint(
+            self.brush,
+            &Layer::empty(self.set_aside.width(), self.set_aside.height()),
+        )
     }
 
     /// Wipes the head, gives the brush its paint back and returns all paint that was taken.
     fn finish(mut self, engine: &mut PaintEngine) -> Result<TakenPaint, DeviceError> {
         self.taken.add(&engine.brush_paint(self.brush)?);
-        engine.set_brush_paint(self.brush, &self.kept)?;
+        engine.set_brush_paint(self.brush, &self.set_aside)?;
         Ok(self.taken)
     }
 }

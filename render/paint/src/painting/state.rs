@@ -48,7 +48,7 @@ pub struct Brush {
 pub(super) struct UndoState {
     pub(super) state: State,
     pub(super) light: Arc<Light>,
-    /// Number of brushes at that time.
+    /// Number of brushes when this state was saved.
     pub(super) brushes: usize,
     pub(super) mask: Option<Arc<Mask>>,
 }

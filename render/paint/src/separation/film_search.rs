@@ -106,7 +106,7 @@ impl FilmSearch {
         Self { film, least_mm, most_mm, hiding, masstones }
     }
 
-    /// This search among films of one height. Preferences among pigments stay.
+    /// This search, limited to films of one height. The preferences among pigments stay.
     pub(super) fn at_height(&self, height_mm: f64) -> Self {
         Self { least_mm: height_mm, most_mm: height_mm, ..self.clone() }
     }

@@ -21,7 +21,7 @@ const COLORS: usize = 96;
 const BINS: f32 = 12.0;
 /// Least gain in mean CIEDE2000 for which a pigment is added or exchanged.
 const WORTHWHILE: f64 = 0.03;
-/// Sets of pigments tried for each colour, and iterations for each.
+/// Sets of pigments tried for each colour. [`STEPS`] is the number of iterations for each set.
 const STARTS: usize = 2;
 const STEPS: usize = 10;
 

@@ -4,8 +4,8 @@
 //! nearly even. Each point holds the film nearest to its colour (see `film_search`). Between
 //! points, we interpolate heights within tetrahedra, as usual for colour tables.
 //!
-//! Where the relief demands the height of a film, you can only choose its mixture: thin paint over
-//! a light ground takes more colour than thick paint does. We keep a table for each of a few
+//! Where the relief demands the height of a film, you can only choose its mixture: over a light
+//! ground, thin paint needs a stronger colour than thick paint. We keep a table for each of a few
 //! heights. Recipes change little from height to height, so we interpolate them between the tables,
 //! evenly in the logarithm of the height.
 
@@ -44,8 +44,8 @@ impl Default for SeparationSettings {
     }
 }
 
-/// Weight of the difference between a film over black and over the ground, relative to
-/// that from the target colour, if films should hide (chosen by eye).
+/// Weight of the difference between a film over black and over the ground, relative to the
+/// difference from the target colour. It applies if films should hide (chosen by eye).
 const HIDING: f64 = 0.07;
 
 /// Sets of pigments tried at each lattice point.
@@ -56,8 +56,8 @@ const STEPS: usize = 20;
 const SMOOTHINGS: usize = 2;
 /// Weight that keeps a lattice point near the mean of its neighbours (chosen by eye).
 const NEIGHBOURS: f64 = 0.3;
-/// Weight that keeps a pixel near the table's film (chosen by eye), and iterations from
-/// there.
+/// Weight that keeps a pixel near the table's film (chosen by eye). [`REFINEMENTS`] is the number
+/// of iterations that start from this film.
 const FROM_TABLE: f64 = 1.0;
 const REFINEMENTS: usize = 8;
 
@@ -390,7 +390,7 @@ impl SeparationByHeight {
         })
     }
 
-    /// Luminance, 0..1, of the darkest grey that films of any height reproduce, in the worst case.
+    /// Luminance, 0..1, down to which films of every height reproduce grey.
     #[must_use]
     pub fn black(&self) -> f32 {
         self.tables.iter().map(Separation::black).fold(0.0, f32::max)
@@ -440,8 +440,8 @@ mod tests {
         PaintFilm::at_nodes(materials, &light.quadrature)
     }
 
-    /// Mean difference of colours that the palette mixes at a height, painted with the recipes of
-    /// films `recipe_mm` high.
+    /// Mean difference between colours that the palette mixes at a height, and films of this height
+    /// with the recipes for films `recipe_mm` high.
     fn difference(films: &SeparationByHeight, height_mm: f32, recipe_mm: f32) -> f64 {
         let film = films.film();
         (0..100)

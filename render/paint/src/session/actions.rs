@@ -389,8 +389,8 @@ impl PaintingSession {
         self.limit_history();
     }
 
-    /// Drops the actions that you can no longer reach, because a painting has dropped a later one
-    /// (of undone actions, an earlier one). Then divides the memory anew.
+    /// Drops the actions that you can no longer reach: done ones before an action that a painting
+    /// has dropped, and undone ones after such an action. Then divides the memory anew.
     pub(super) fn limit_history(&mut self) {
         self.drop_unreachable();
         let reserved = if self.palette.is_some() { self.undo_limit / RESERVED } else { 0 };

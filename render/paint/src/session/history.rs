@@ -27,14 +27,14 @@ pub(super) struct Entry {
     pub(super) carried: Option<Carried>,
 }
 
-/// Numbers of the actions of each surface.
+/// Number of actions of each surface.
 fn counts(entries: &VecDeque<Entry>) -> PerSurface<usize> {
     PerSurface::from_fn(|surface| entries.iter().filter(|entry| entry.on[surface]).count())
 }
 
-/// Drops the entries farthest from the present, which are the first, until each surface has at
-/// most `kept`, the number of actions that its painting still has. Returns the number of the last
-/// one.
+/// Drops the entries farthest from the present, which are the first, until each surface has at most
+/// `kept`, the number of actions that its painting still has. Returns the number of the last entry
+/// dropped.
 fn drop_farthest(entries: &mut VecDeque<Entry>, kept: PerSurface<usize>) -> Option<u64> {
     let mut last = None;
     while counts(entries).iter().zip(kept.iter()).any(|(count, kept)| count > kept) {

@@ -1,9 +1,9 @@
-//! How a session goes on elsewhere: its state besides its documents, its brushes in the file of a
-//! painting, and scripts played on it.
+//! Continues a session later or elsewhere: from its documents and its other state, from the brushes
+//! in the file of a painting, or by playing a script.
 //!
 //! A session restored from its documents and a [`KeptSession`] paints the same bits as the session
 //! itself would have: its brushes are the same heads with the same paint, and its recording goes
-//! on. Its history is empty. A recording that goes on undoes nothing older.
+//! on. Its history is empty. In the continued recording, no undo reaches back to older actions.
 
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
@@ -60,8 +60,8 @@ impl PaintingSession {
     }
 
     /// The recording from action `from` on. `None` if the session records nothing or the recording
-    /// ended early. While a stroke is open, nothing known of it may wait (see
-    /// [`PaintingSession::advance`]), so that the end agrees with the documents.
+    /// ended early. If a stroke is open, first paint all its known sub-steps (see
+    /// [`PaintingSession::advance`]), so that the recording agrees with the documents.
     #[must_use]
     pub fn recording_from(&self, from: usize) -> Option<RecordingTail> {
         let record = self.record.as_ref().filter(|record| record.stopped.is_none())?;
@@ -159,8 +159,8 @@ impl PaintingSession {
     /// because their heads have other cells than in the version of the program that saved them, or
     /// because they hold too much paint.
     ///
-    /// It is no action of history and recording: a recording of such a session replays on a
-    /// session that has taken up the same brushes.
+    /// History and recording do not hold this. To replay the recording of such a session, take up
+    /// the same brushes first.
     ///
     /// # Errors
     /// [`PaintingError`] for a head that cannot be made on cells of this width, or if the device was

@@ -387,14 +387,14 @@ pub struct KeptHead {
     pub recorded: String,
     /// Shape and size.
     pub spec: BrushSpec,
-    /// Whether it has its name now. Another head may have taken it.
+    /// Whether its name refers to it now. Another head may have taken the name.
     pub named: bool,
     /// Surface whose painting holds its paint. In the other one it is clean.
     pub at: SurfaceId,
     /// Its id in the painting of each surface, once it was used there.
     pub ids: PerSurface<Option<BrushId>>,
-    /// The paint on it, by slots of the palette. `None` if it is clean, and while a session has
-    /// the head, as its paint is on the surface then.
+    /// The paint on it, by slots of the palette. `None` if it is clean. Also `None` while a session
+    /// uses the head, because the painting of its surface then holds the paint.
     pub paint: Option<Layer>,
 }
 

@@ -206,7 +206,7 @@ fn act(session: &mut PaintingSession, actions: impl IntoIterator<Item = Action>)
     }
 }
 
-/// Three dry layers of one paint, 1 and 3 over each other.
+/// Three dry layers of one paint. The first and the third overlap.
 fn layered(session: &mut PaintingSession) {
     act(session, [load("flat", "Lead White")]);
     for y_mm in [4.0, 10.0, 4.5] {
@@ -419,7 +419,7 @@ fn begun() -> PaintingSession {
     session
 }
 
-/// A way over a surface with a bend, of `count` samples.
+/// Samples of a bent path over a surface, `count` of them.
 fn way(y_mm: f64, count: usize) -> Vec<Sample> {
     (0..count)
         .map(|index: usize| {
@@ -435,7 +435,7 @@ fn draw(session: &mut PaintingSession, on: SurfaceId, brush: &str, y_mm: f64) {
     session.end_stroke().unwrap();
 }
 
-/// Loads, mixing on the palette, a head that replaces another, undo, and drying.
+/// Loads brushes, mixes on the palette, undoes, replaces a head by another, and dries.
 fn first_half(session: &mut PaintingSession) {
     let recipe = [("Lead White".to_owned(), 1.0)].into();
     let vehicle = 0.1;

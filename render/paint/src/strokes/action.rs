@@ -299,7 +299,7 @@ pub struct Stroke {
     pub brush: String,
     /// The surface. The canvas by default.
     pub on: SurfaceId,
-    /// The tool as which you use the head. It paints by default.
+    /// The tool that you use the brush as. By default it paints.
     pub tool: StrokeTool,
     /// Samples of the pen in order of time.
     pub samples: Vec<Sample>,
@@ -406,7 +406,7 @@ pub struct PerSurface<T> {
 }
 
 impl<T> PerSurface<T> {
-    /// The value `of` each surface.
+    /// Calls `of` for each surface and holds the results.
     #[must_use]
     pub fn from_fn(mut of: impl FnMut(SurfaceId) -> T) -> Self {
         Self { canvas: of(SurfaceId::Canvas), palette: of(SurfaceId::Palette) }

@@ -27,8 +27,8 @@ use crate::pose::Sample;
 use crate::stroke::SampleDecimals;
 
 impl Action {
-    /// The numbers of the action with their limits, except for a stroke. A corner of a mask lies
-    /// at most `reach_mm` from the corner of the canvas.
+    /// The numbers of the action with their limits, without the samples of a stroke. A corner of a
+    /// mask lies at most `reach_mm` from the corner of the canvas.
     fn numbers(&mut self, reach_mm: f64) -> Vec<Number<'_>> {
         match self {
             Self::Load(Load { recipe, vehicle, amount_mm, .. }) => {
@@ -77,7 +77,7 @@ impl Action {
         }
     }
 
-    /// Checks everything in the action that is not a number of its own.
+    /// Checks everything in the action except the numbers that `numbers` lists.
     fn check_rules(&self, at: &CheckContext) -> Checked {
         match self {
             Self::Load(Load { recipe, vehicle, .. })
@@ -103,8 +103,8 @@ impl Action {
         }
     }
 
-    /// The surfaces that the action changes, if they exist. None for one that changes only a
-    /// brush.
+    /// The surfaces that the action changes, if they exist. Both are `false` for an action that
+    /// changes only a brush.
     pub(crate) fn surfaces(&self) -> PerSurface<bool> {
         let canvas = PerSurface { canvas: true, palette: false };
         match self {

@@ -38,8 +38,8 @@ pub enum Interval {
     /// canvas, without pauses and without mixing on the palette.
     Seconds(f64),
     /// This many frames in all, 2 and up. We spread them evenly over the painting time, or over the
-    /// actions if the strokes did not take time. You get fewer if some moments do not differ by a
-    /// sample.
+    /// actions if the strokes did not take time. You get fewer frames if several moments fall
+    /// between the same two samples.
     Frames(usize),
 }
 
@@ -48,8 +48,8 @@ pub enum Interval {
 pub struct TimelapseSettings {
     /// How often a frame is taken. The first frame shows the start, the last one the end.
     pub interval: Interval,
-    /// Longest side of a frame in pixels, 16 to 16,384. If the canvas has fewer cells, you get
-    /// these.
+    /// Longest side of a frame in pixels, 16 to 16,384. If the canvas has fewer cells, a frame has
+    /// one pixel per cell.
     pub longest_px: usize,
     /// Whether you see passages that were undone later. We paint them in any case.
     pub with_undone: bool,
@@ -88,8 +88,8 @@ impl TimelapseSettings {
     }
 }
 
-/// Returns which actions change the canvas and are shown: all, or those that are left at the end.
-/// If an action was undone and then done again, it is left.
+/// Returns which actions change the canvas and are shown: all, or those that are done at the end.
+/// An action that was undone and then done again counts as done.
 fn shown(actions: &[Action], with_undone: bool) -> Vec<bool> {
     let changes = actions.iter().map(changes_canvas);
     if with_undone {

@@ -20,7 +20,7 @@ fn blank() -> PaintingSession {
     PaintingSession::on_canvas(&PigmentLibrary::van_gogh_oils(), &canvas()).unwrap()
 }
 
-/// Three strokes of 1 s, of which the second was undone, and its end.
+/// A script of three strokes of 1 s, of which the second was undone, and its last frame.
 fn recorded() -> (StrokeScript, Frame) {
     let mut session = blank();
     let spec = BrushSpec { shape: HeadShape::Round, size_mm: 3.0 };

@@ -278,7 +278,7 @@ impl SavedTile {
 #[derive(Debug, Clone)]
 pub(super) struct HeadPaint {
     pub(super) cells: Columns,
-    /// Mean volume in quanta of the hair of each cell when paint last flowed along it.
+    /// For each cell, the mean volume in quanta of its hair when paint last flowed along it.
     pub(super) means: Vec<u32>,
 }
 

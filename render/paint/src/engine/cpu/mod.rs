@@ -232,7 +232,8 @@ impl CpuPaint {
     }
 }
 
-/// Index into a canvas of `bounds` of the cell that has `index` within `rect`.
+/// Converts `index`, counted row by row within `rect`, to the index of that cell within the canvas
+/// `bounds`.
 fn canvas_index(rect: Rect, index: usize, bounds: Rect) -> usize {
     (rect.y + index / rect.width) * bounds.width + rect.x + index % rect.width
 }

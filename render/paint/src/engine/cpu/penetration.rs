@@ -38,13 +38,13 @@ pub(super) struct PenetrationMap {
     changing: Spans,
     /// Columns with tops that we compute because flows depend on them.
     seen: Spans,
-    /// Coats in quanta of the cells in contact, with such a rim too. Elsewhere they are undefined.
+    /// Coats in quanta of the cells in contact, with the rim. Other cells have undefined values.
     coats: Vec<u32>,
     /// Heights in quanta of the bed of one row of the contact.
     bed: Vec<i32>,
-    /// Mean volumes of the hair over the cells of one row of the contact.
+    /// Mean volumes of the hair above the cells of one row of the contact.
     means: Vec<u32>,
-    /// Whether each column is crowded or covered, with such a rim too. If none is, this is empty,
+    /// Whether each column is crowded or covered, with the rim. If no column is, this is empty,
     /// which is nearly always so without a mask.
     crowded: Vec<bool>,
 }
@@ -218,7 +218,7 @@ impl PenetrationMap {
     }
 
     /// Sets all bits of `found` for each cell of row `y` from `x` on that is in contact or has a
-    /// neighbour in contact. The others get none.
+    /// neighbour in contact. For other cells this sets 0.
     #[inline(always)]
     pub(super) fn near_contact(&self, (x, y): (usize, usize), found: &mut [u32]) {
         let row = self.row_length();
@@ -326,7 +326,8 @@ impl PenetrationMap {
         self.flows(motion, self.start(y) + x - self.reach.x, self.row_length(), found);
     }
 
-    /// Flows into the cells from `place` on, each from the cell `stride` before it.
+    /// Flows into the cells from index `place` on. Each comes from the cell `stride` indices
+    /// before.
     #[inline(always)]
     fn flows(&self, motion: &MotionConstants, place: usize, stride: usize, found: &mut [i32]) {
         let motion = *motion;
@@ -377,14 +378,14 @@ impl Spans {
         self.first..self.first + self.ranges.len()
     }
 
-    /// Columns of row `y`. None of rows beyond the reach.
+    /// Columns of row `y`. Empty for rows beyond the reach.
     #[inline(always)]
     pub(super) fn of(&self, y: usize) -> Range<usize> {
         let row = y.checked_sub(self.first).and_then(|row| self.ranges.get(row));
         row.cloned().unwrap_or_default()
     }
 
-    /// Sets the columns of row `y`, which is one of the reach.
+    /// Sets the columns of row `y`, which must be a row of the reach.
     #[inline(always)]
     pub(super) fn set(&mut self, y: usize, columns: Range<usize>) {
         self.ranges[y - self.first] = columns;
@@ -426,12 +427,12 @@ pub(super) fn joined(a: &Range<usize>, b: &Range<usize>) -> Range<usize> {
 /// Heights of the bed of a stroke.
 #[derive(Debug, Clone)]
 pub(super) struct Bed {
-    /// By block, in units of 256 quanta.
+    /// Height of each block, in units of 256 quanta.
     blocks: Field<i32>,
 }
 
 impl Bed {
-    /// A bed over `bounds` before you record any of it.
+    /// A bed over `bounds` of which you have not recorded any block.
     pub(super) fn unknown(bounds: Rect) -> Self {
         let width = bounds.width.div_ceil(BLOCK);
         let height = bounds.height.div_ceil(BLOCK);

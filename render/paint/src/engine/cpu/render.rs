@@ -39,8 +39,8 @@ pub(super) struct RenderedView {
 const BLACK: [f32; 4] = [0.0, 0.0, 0.0, 1.0];
 
 impl RenderedView {
-    /// Bakes the tiles of `baked`, and takes over the surface of these and of `shown`. This uses
-    /// all cores.
+    /// Bakes the tiles of `baked`, and updates the heights of the surface in these tiles and in
+    /// `shown`. This uses all cores.
     pub(super) fn render(
         &mut self,
         scene: &Scene,

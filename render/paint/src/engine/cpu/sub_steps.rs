@@ -332,7 +332,7 @@ impl Band {
 /// Exchanges of one row after another. This holds its buffers, so that sub-steps do not allocate.
 #[derive(Debug, Default)]
 pub(super) struct Exchanges {
-    /// One for each cell in contact of a row, and those between them.
+    /// Exchanges of the cells of a row, from the first to the last in contact.
     pub(super) found: Vec<Exchange>,
     brush_volumes: Vec<u32>,
     leaving: Vec<u32>,

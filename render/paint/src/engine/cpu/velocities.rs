@@ -19,14 +19,14 @@ use crate::motion::press::{dragged, velocity};
 /// Velocities of one row after another. This holds its buffers, so that sub-steps do not allocate.
 #[derive(Debug, Default)]
 pub(super) struct Velocities {
-    /// Along x and y in 1/16384 cell a sub-step.
+    /// Velocities along x and y in 1/16384 cell a sub-step.
     x: Vec<i32>,
     y: Vec<i32>,
     /// Share of each column that may move, in parts of 65536.
     mobile: Vec<u32>,
     /// Shares of each column that leave it along x, along y and diagonally. See [`outflow`].
     pub(super) outflow: [Vec<u32>; 3],
-    /// Signs of the velocities along x and y: to which neighbours paint moves.
+    /// Signs of the velocities along x and y, which tell to which neighbours paint moves.
     pub(super) beside: Vec<i32>,
     pub(super) below: Vec<i32>,
     touches: Vec<Touch>,
@@ -100,7 +100,7 @@ impl Velocities {
         self.find_outflows();
     }
 
-    /// Computes the shares that leave the columns, and to which neighbours.
+    /// Computes the share of each column that moves to each neighbour.
     #[inline(always)]
     fn find_outflows(&mut self) {
         let Self { x, y, mobile, outflow: [in_x, in_y, diagonal], beside, below, .. } = self;
@@ -139,7 +139,7 @@ impl Velocities {
         self.touches.resize(columns.len(), Touch::NONE);
     }
 
-    /// Removes the components that would carry paint off the canvas.
+    /// Removes the components of velocities that would carry paint off the canvas.
     #[inline(always)]
     fn keep_on_canvas(&mut self, columns: &Range<usize>, bounds: Rect, y: usize) {
         if let Some(first) = self.x.first_mut().filter(|_| columns.start == 0) {
@@ -282,7 +282,7 @@ impl Inflow {
         }
     }
 
-    /// Takes the vehicle that leaves the columns of a row from `vehicle`.
+    /// Subtracts from `vehicle` the part that leaves each column of the row, and stores this part.
     #[inline(always)]
     fn take_vehicle(&mut self, velocities: &Velocities, vehicle: &mut [u32]) {
         for (parts, shares) in self.leaving.iter_mut().zip(&velocities.outflow) {
@@ -298,9 +298,9 @@ impl Inflow {
         }
     }
 
-    /// Each band has a row of the other. This band computes paint that flows into the first row of
-    /// the band `below`, and that band computes paint for the last row of this one. This moves the
-    /// paint to the band that owns the row.
+    /// Moves inflow to the band that owns the row. This band has computed paint that flows into the
+    /// first row of the band `below`, and that band has computed paint for the last row of this
+    /// one.
     pub(super) fn exchange_border_rows(&mut self, below: &mut Self) {
         let last = self.flows.len() - 2;
         let beyond = self.flows.len() - 1;

@@ -7,7 +7,7 @@ use crate::motion::wick::{UNIT_BITS, dealt_share, flowing, given_share, lack, me
 
 const EMPTY: Cell = Cell { pigments: [0; SLOTS], vehicle: 0 };
 
-/// Figures of a group of hairs.
+/// Mean, lack and pot of a group of hairs.
 #[derive(Debug, Clone, Copy)]
 struct Group {
     columns: u32,
@@ -25,14 +25,15 @@ const BARE: Group = Group { columns: 0, mean: 0, lacks: 0, pot: EMPTY, rest: EMP
 /// the compiler makes vector instructions of them.
 #[derive(Debug, Default)]
 struct Columns {
-    /// Place of the column in a row of cells.
+    /// Index of the column within a row of cells.
     places: Vec<usize>,
     group_of: Vec<usize>,
-    /// Volume of its cells, or the volume that they lack, in units.
+    /// Sum over the column's cells of their volumes, or of the volumes that they lack, in units
+    /// (see [`UNIT_BITS`]).
     sums: Vec<u32>,
     /// Index of the last row with a cell that lacks paint.
     last: Vec<u32>,
-    /// Mean, flow and lacks of its group.
+    /// Mean of the column's group. `flowing` and `lacks` are values of the group as well.
     means: Vec<u32>,
     flowing: Vec<u32>,
     lacks: Vec<u32>,

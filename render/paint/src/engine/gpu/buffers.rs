@@ -128,7 +128,8 @@ pub(super) fn mask_start(canvas: Rect) -> usize {
     canvas.width * canvas.height + blocks
 }
 
-/// The buffer of the floor, of a bed before you record any of it, and of a mask.
+/// Creates the buffer that holds the floor, then a bed that you have not recorded yet, then a mask
+/// that covers no cell.
 pub(super) fn floor_buffer(device: &mut Device, floor: &Field<i32>) -> Result<Buffer, DeviceError> {
     let cells = floor.values().len();
     let mask = mask_start(floor.bounds());

@@ -46,14 +46,14 @@ pub struct GpuPaint {
     /// Height of ground and dry paint of each cell in quanta, then the bed of all blocks (see
     /// [`crate::motion::bed`]), then the bits of the mask.
     floor: Buffer,
-    /// First: index at which the mask begins in `floor`. Without a mask this is 0.
+    /// The first number is the index at which the mask begins in `floor`. Without a mask this is 0.
     mask: [u32; 4],
     brushes: Vec<BrushBuffers>,
     sub_step: SubStepBuffers,
     dry: Vec<PaintBuffers>,
     undo_tiles: UndoTiles,
     tops: Tops,
-    /// By [`View`].
+    /// Buffers of each [`View`], once they are allocated.
     views: [Option<ViewBuffers>; 2],
 }
 

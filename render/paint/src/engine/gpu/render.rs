@@ -223,7 +223,8 @@ impl ViewBuffers {
         })
     }
 
-    /// Records the rendering of `shown` and `baked` tiles, after baking `baked` ones.
+    /// Records the baking of the tiles in `baked`, then the rendering of the tiles in `baked` and
+    /// `shown`.
     ///
     /// # Panics
     /// If `scene` does not describe each dry layer.
@@ -309,8 +310,8 @@ pub(super) fn columns_and_rows(tiles: &TileSet) -> Vec<[u32; 2]> {
     tiles.iter().map(|tile| [tile.column as u32, tile.row as u32]).collect()
 }
 
-/// Workgroups that cover whole tiles, one tile per z, with `cells` cells of a column per
-/// invocation.
+/// Number of workgroups along x, y and z. Each z covers one tile, and an invocation computes
+/// `cells` cells of a column.
 pub(super) fn workgroups(tiles: &[[u32; 2]], cells: u32) -> [u32; 3] {
     [1, TILE as u32 / cells, tiles.len() as u32]
 }

@@ -23,7 +23,8 @@ pub(super) struct SubStepParams {
     /// Index of the contact's first touch in the batch.
     pub(super) first_touch: u32,
     pub(super) brush_cells: u32,
-    /// First: index of the mask's first word in the buffer of the floor, 0 without a mask.
+    /// The first number is the index of the mask's first word in the buffer of the floor. Without a
+    /// mask this is 0.
     pub(super) mask: [u32; 4],
 }
 
@@ -157,9 +158,9 @@ pub(super) struct WickParams {
     pub(super) hairs: u32,
     /// Number of hairs that the first group lacks.
     pub(super) shift: u32,
-    /// Number of flows in which all groups have their turn.
+    /// Number of flows until all groups have had their turn.
     pub(super) turns: u32,
-    /// Number of this flow among them.
+    /// Number of this flow among the `turns` flows, from 0.
     pub(super) turn: u32,
 }
 
