@@ -332,9 +332,11 @@ pub fn black_body(kelvin: f64) -> Result<Illuminant, IlluminantError> {
     if !(kelvin.is_finite() && kelvin >= 500.0) {
         return Err(IlluminantError::Temperature { kelvin });
     }
-    let planck =
-        |nm: f64| nm.powi(-5) / (SECOND_RADIATION_CONSTANT / (nm * 1e-9 * kelvin)).exp_m1();
-    Illuminant::from_function(&name, |nm| 100.0 * planck(nm) / planck(560.0))
+    Illuminant::from_function(&name, |nm| 100.0 * planck(nm, kelvin) / planck(560.0, kelvin))
+}
+
+fn planck(nm: f64, kelvin: f64) -> f64 {
+    nm.powi(-5) / (SECOND_RADIATION_CONSTANT / (nm * 1e-9 * kelvin)).exp_m1()
 }
 
 #[cfg(test)]

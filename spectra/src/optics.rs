@@ -321,9 +321,9 @@ impl FromStr for Surface {
         if text == "none" {
             return Ok(Self::NONE);
         }
-        let number = |part: &str| part.trim().parse::<f64>().ok();
-        let numbers = text.split_once(',').and_then(|(k1, k2)| number(k1).zip(number(k2)));
-        let Some((k1, k2)) = numbers else {
+        let parts = text.split_once(',').map(|(k1, k2)| [k1, k2]);
+        let numbers = parts.map(|parts| parts.map(|part| part.trim().parse::<f64>()));
+        let Some([Ok(k1), Ok(k2)]) = numbers else {
             let reason = format!("takes K1,K2 or none, found `{text}`");
             return Err(RequestError::value(reason, "try [saunderson=0.03,0.6]"));
         };

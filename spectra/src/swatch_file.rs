@@ -371,8 +371,10 @@ fn section(bytes: &mut Bytes<'_>, version: u16) -> Result<SwatchFile, SwatchFile
     for _ in 0..count {
         let offset = bytes.offset;
         let space = bytes.u16("a colour space")?;
-        let mut word = || bytes.u16("a colour of four words");
-        let words = [word()?, word()?, word()?, word()?];
+        let mut words = [0; 4];
+        for word in &mut words {
+            *word = bytes.u16("a colour of four words")?;
+        }
         let color = aco_color(space, words)
             .ok_or_else(|| bytes.wrong(offset, "RGB, HSB, CMYK, Lab or grey", space))?;
         let name = if version == 2 {

@@ -249,11 +249,10 @@ impl GroundSource {
 
     #[cfg(not(feature = "files"))]
     fn of_text(text: &str) -> Result<Self, RequestError> {
-        let refused = || {
+        rectangle(text).map(Self::Region).ok_or_else(|| {
             let reason = format!("takes rows and columns, found `{text}`");
             RequestError::value(reason, "try [ground=0..20,0..100]")
-        };
-        rectangle(text).map(Self::Region).ok_or_else(refused)
+        })
     }
 }
 
@@ -276,12 +275,13 @@ impl<'de> Deserialize<'de> for GroundSource {
 
 /// Parses `ROWS,COLUMNS`, each `FIRST..END`; `None` for any other text.
 fn rectangle(text: &str) -> Option<Region> {
-    let range = |part: &str| {
-        let (first, end) = part.split_once("..")?;
-        Some(first.trim().parse().ok()?..end.trim().parse().ok()?)
-    };
     let (rows, columns) = text.split_once(',')?;
     Some(Region { rows: range(rows)?, columns: range(columns)? })
+}
+
+fn range(part: &str) -> Option<Range<usize>> {
+    let (first, end) = part.split_once("..")?;
+    Some(first.trim().parse().ok()?..end.trim().parse().ok()?)
 }
 
 /// Parses `ROW,COLUMN` or `ROWS,COLUMNS`; `None` for any other text, and for a region without pixels.
@@ -292,11 +292,11 @@ fn pixel_or_rectangle(text: &str) -> Option<Region> {
 }
 
 fn one_or_range(part: &str) -> Option<Range<usize>> {
-    let Some((first, end)) = part.split_once("..") else {
-        let place: usize = part.trim().parse().ok()?;
-        return Some(place..place.checked_add(1)?);
-    };
-    Some(first.trim().parse().ok()?..end.trim().parse().ok()?)
+    if part.contains("..") {
+        return range(part);
+    }
+    let place: usize = part.trim().parse().ok()?;
+    Some(place..place.checked_add(1)?)
 }
 
 /// Parses a group, `NAME=PIGMENT,..`.

@@ -296,9 +296,10 @@ impl ArrayMetadata {
             let problem = format!("has the shape {shape:?} and chunks of {chunk:?}");
             return Err(ZarrFault::unread(problem));
         }
-        let bytes =
-            |sizes: &[usize]| sizes.iter().try_fold(number_type.bytes(), |a, b| a.checked_mul(*b));
-        if bytes(&chunk).is_none_or(|bytes| bytes > MOST_CHUNK_BYTES) || bytes(&shape).is_none() {
+        let [of_chunk, of_shape] = [&chunk, &shape].map(|sizes| {
+            sizes.iter().try_fold(number_type.bytes(), |a: usize, b| a.checked_mul(*b))
+        });
+        if of_chunk.is_none_or(|bytes| bytes > MOST_CHUNK_BYTES) || of_shape.is_none() {
             return Err(ZarrFault {
                 problem: format!("has chunks of {chunk:?} numbers, more than 512 MB"),
                 way_out: "save it with smaller chunks: xarray's chunk({\"y\": 128, \"x\": 128})",

@@ -28,6 +28,10 @@ fn scan(pixels: usize) -> (Mapper, Vec<f32>) {
     (Mapper::new(&oils, &nm, &settings()).unwrap(), painting.spectra)
 }
 
+fn place(mapper: &Mapper, name: &str) -> usize {
+    mapper.pigments().iter().position(|known| known == name).unwrap()
+}
+
 /// All numbers of a map as bits, so that e.g. NaN equals NaN.
 fn bits(maps: &BlockMaps) -> Vec<u32> {
     let lists = [&maps.share, &maps.share_sd, &maps.presence, &maps.chi2, &maps.rms];
@@ -103,12 +107,13 @@ fn no_pixel_panics_and_bad_ones_are_masked() {
         let expected: Vec<Mask> =
             expected.chain([Mask::NotFinite, Mask::Mapped, Mask::OutOfGamut]).collect();
         assert_eq!(maps.mask, expected);
-        let of = |index: usize| &maps.share[index * maps.pigments..(index + 1) * maps.pigments];
-        assert!(of(0).iter().all(|share| share.is_nan()), "no numbers where there is no map");
-        assert!(of(8).iter().all(|share| share.is_finite()), "grey");
+        let shares: Vec<&[f32]> = maps.share.chunks_exact(maps.pigments).collect();
+        assert!(shares[0].iter().all(|share| share.is_nan()), "no numbers where there is no map");
+        assert!(shares[8].iter().all(|share| share.is_finite()), "grey");
         // A pixel that no mixture explains tells how badly, and no pigments.
         assert!(maps.chi2[13] > 10.0 * maps.chi2[12], "{:?}", &maps.chi2[12..]);
-        assert!(maps.rms[13] > 0.1 && of(13).iter().all(|share| share.is_nan()), "{:?}", of(13));
+        let shares = shares[13];
+        assert!(maps.rms[13] > 0.1 && shares.iter().all(|share| share.is_nan()), "{shares:?}");
     }
     let masks = [Mask::Saturated, Mask::Mapped];
     let opened = mapper.open_book(&book).unwrap();
@@ -215,23 +220,22 @@ fn a_survey_finds_the_palette_and_maps_know_it() {
     let painting = Painting::simulate(&oils, &oils, &plan);
     let mapper = Mapper::new(&oils, &nm, &settings()).unwrap();
     let book = mapper.survey(&painting.spectra, &Task::default()).unwrap();
-    let inside = |name: &str| {
-        let place = mapper.pigments().iter().position(|known| known == name).unwrap();
-        book.palette[place]
-    };
     // Whites and chrome yellows stand for each other.
     for name in ["Minium", "Vermilion", "Viridian", "Emerald Green", "Cobalt Blue", "Ultramarine"] {
-        assert!(inside(name) > 0.9, "{name}: {}", inside(name));
+        let inside = book.palette[place(&mapper, name)];
+        assert!(inside > 0.9, "{name}: {inside}");
     }
-    let whites = ["Zinc White", "Lead White", "Barium Sulphate", "Calcium Carbonate"];
-    assert!(whites.into_iter().map(inside).fold(0.0, f32::max) > 0.9, "a white");
+    let whites = ["Zinc White", "Lead White", "Barium Sulphate", "Calcium Carbonate"]
+        .map(|name| book.palette[place(&mapper, name)]);
+    assert!(whites.into_iter().fold(0.0, f32::max) > 0.9, "a white");
     for name in ["Prussian Blue", "Bone Black", "Cochineal Lake"] {
-        assert!(inside(name) < 0.3, "{name}: {}", inside(name));
+        let inside = book.palette[place(&mapper, name)];
+        assert!(inside < 0.3, "{name}: {inside}");
     }
     // The palette is a prior: other pigments are told seldom, but they are told.
     let maps = mapper.map_block(&book, &painting.spectra).unwrap();
     let wrong = |maps: &BlockMaps| {
-        let black = mapper.pigments().iter().position(|name| name == "Bone Black").unwrap();
+        let black = place(&mapper, "Bone Black");
         maps.presence.chunks_exact(maps.pigments).filter(|p| p[black] > 0.5).count()
     };
     let without = mapper.search(&painting.spectra).unwrap();
@@ -255,12 +259,12 @@ fn a_scan_of_two_paints_keeps_their_pigments() {
     let spectra = films.concat();
     let mapper = Mapper::new(&oils, &nm, &settings()).unwrap();
     let book = mapper.survey(&spectra, &Task::default()).unwrap();
-    let place = |name: &str| mapper.pigments().iter().position(|known| known == name).unwrap();
     for name in ["Viridian", "Vermilion"] {
-        assert!(book.palette[place(name)] > 0.9, "{name}: {:?}", book.palette);
+        assert!(book.palette[place(&mapper, name)] > 0.9, "{name}: {:?}", book.palette);
     }
     let maps = mapper.map_block(&book, &spectra).unwrap();
-    assert!((maps.share[place("Viridian")] - 0.2).abs() < 0.02, "{:?}", &maps.share[..18]);
+    let viridian = maps.share[place(&mapper, "Viridian")];
+    assert!((viridian - 0.2).abs() < 0.02, "{:?}", &maps.share[..18]);
 }
 
 #[test]
@@ -343,12 +347,12 @@ fn few_pigments_and_few_bands_suffice() {
     let mapper = Mapper::new(&oils, &nm, &MapSettings { palette, ..settings() }).unwrap();
     let recipe = oils.recipe([("Zinc White", 0.7), ("Viridian", 0.3)]).unwrap();
     let film = oils.mix(recipe).unwrap().hiding(oils.saunderson);
-    let at = |nm: f64| film[((nm - 400.0) / 10.0) as usize] as f32;
-    let maps = mapper.search(&nm.map(at)).unwrap();
+    let seen = nm.map(|nm: f64| film[((nm - 400.0) / 10.0) as usize] as f32);
+    let maps = mapper.search(&seen).unwrap();
     assert!((maps.share[1] - 0.3).abs() < 0.03, "{:?}", maps.share);
     let palette = vec!["Viridian".to_owned()];
     let one = Mapper::new(&oils, &nm, &MapSettings { palette, ..settings() }).unwrap();
-    assert_eq!(one.search(&nm.map(at)).unwrap().mask, [Mask::OutOfGamut], "it holds white too");
+    assert_eq!(one.search(&seen).unwrap().mask, [Mask::OutOfGamut], "it holds white too");
     let pure = oils.mix(oils.recipe([("Viridian", 1.0)]).unwrap()).unwrap();
     let pure = pure.hiding(oils.saunderson);
     assert_eq!(

@@ -35,12 +35,11 @@ impl ReadAt for Memory {
 
 /// A scan of bare linen in its first two rows, of white in its left half and of green in the right one.
 fn cube(oils: &PigmentLibrary) -> Cube {
-    let paint = |parts: &[(&str, f64)]| {
+    let recipes = [&[("Zinc White", 1.0)][..], &[("Zinc White", 1.0), ("Viridian", 1.0)]];
+    let [white, green] = recipes.map(|parts| {
         let recipe = oils.recipe(parts.iter().copied()).unwrap();
         oils.mix(recipe).unwrap().hiding(oils.saunderson)
-    };
-    let white = paint(&[("Zinc White", 1.0)]);
-    let green = paint(&[("Zinc White", 1.0), ("Viridian", 1.0)]);
+    });
     let linen: Vec<f64> = (0..white.len()).map(|band| 0.3 + 0.006 * band as f64).collect();
     let mut bytes = Vec::new();
     for line in 0..LINES {
@@ -60,11 +59,8 @@ fn cube(oils: &PigmentLibrary) -> Cube {
         nm.len(),
         nm.join(", ")
     );
-    let file = |name: &str, bytes: Vec<u8>| ScanFile {
-        name: name.into(),
-        contents: Arc::new(Memory(bytes)),
-    };
-    let files = [file("scan.hdr", header.into_bytes()), file("scan.img", bytes)];
+    let files = [("scan.hdr", header.into_bytes()), ("scan.img", bytes)]
+        .map(|(name, bytes)| ScanFile { name: name.into(), contents: Arc::new(Memory(bytes)) });
     Cube::of_files(&files, &CubeOptions::default()).unwrap()
 }
 

@@ -141,15 +141,13 @@ fn add_columns(
             let column = &mut columns[(j - range.start) * count..][..count];
             let mut others = &derivatives[first + j - run.start..];
             let slopes = others[0];
-            let mut add = |to: Range<usize>| {
+            for to in std::iter::once(j..run.end).chain(runs[index + 1..].iter().cloned()) {
                 let (here, rest) = others.split_at(to.len());
                 others = rest;
                 for (sum, &other) in column[to].iter_mut().zip(here) {
                     *sum += dot(slopes, other);
                 }
-            };
-            add(j..run.end);
-            runs[index + 1..].iter().for_each(|run| add(run.clone()));
+            }
         }
         first += run.len();
     }
@@ -389,6 +387,13 @@ pub struct Bounds {
     pub upper: [f64; UNKNOWNS],
 }
 
+impl Bounds {
+    /// How far unknown `i` can fall and rise from `point`.
+    fn room(&self, point: &[f64; UNKNOWNS], i: usize) -> (f64, f64) {
+        (self.lower[i] - point[i], self.upper[i] - point[i])
+    }
+}
+
 /// Returns the step d from `point` that minimises g d + d H d / 2 within the bounds. You must pass a
 /// positive definite `matrix`, and a `point` within the bounds.
 pub(super) fn bounded_step(
@@ -398,23 +403,21 @@ pub(super) fn bounded_step(
     bounds: &Bounds,
 ) -> [f64; UNKNOWNS] {
     let count = bounds.count;
-    let room = |i: usize| (bounds.lower[i] - point[i], bounds.upper[i] - point[i]);
     let mut step = [0.0; UNKNOWNS];
     let mut held = [false; UNKNOWNS];
     for (i, held) in held.iter_mut().enumerate().take(count) {
-        let (down, up) = room(i);
+        let (down, up) = bounds.room(point, i);
         *held = down >= 0.0 || up <= 0.0;
     }
     // Each round fixes or frees one unknown. We allow far more rounds than we ever need.
     for _ in 0..8 * UNKNOWNS {
-        let slope: [f64; UNKNOWNS] = std::array::from_fn(|i| {
-            gradient[i] + (0..count).map(|j| matrix[i][j] * step[j]).sum::<f64>()
-        });
+        let slope: [f64; UNKNOWNS] =
+            std::array::from_fn(|i| slope_at(matrix, gradient, &step, count, i));
         let (toward, multiplier) = free_step(matrix, &slope, &held, bounds);
         let mut length = 1.0;
         let mut blocking = None;
         for i in (0..count).filter(|&i| !held[i] && toward[i].abs() > 1e-14) {
-            let (down, up) = room(i);
+            let (down, up) = bounds.room(point, i);
             let limit = if toward[i] < 0.0 { down } else { up };
             let to_limit = ((limit - step[i]) / toward[i]).max(0.0);
             if to_limit < length {
@@ -428,13 +431,24 @@ pub(super) fn bounded_step(
             (step[i], held[i]) = (limit, true);
             continue;
         }
-        let Some(freed) = wrongly_held(matrix, gradient, &step, &held, multiplier, bounds, &room)
+        let Some(freed) = wrongly_held(matrix, gradient, &step, &held, multiplier, bounds, point)
         else {
             break;
         };
         held[freed] = false;
     }
     step
+}
+
+/// Slope of the model over unknown `i`, after a step.
+fn slope_at(
+    matrix: &[[f64; UNKNOWNS]; UNKNOWNS],
+    gradient: &[f64; UNKNOWNS],
+    step: &[f64; UNKNOWNS],
+    count: usize,
+    i: usize,
+) -> f64 {
+    gradient[i] + (0..count).map(|j| matrix[i][j] * step[j]).sum::<f64>()
 }
 
 /// Step to the minimum over the unknowns that are not `held` at a bound, and Lagrange's multiplier for the
@@ -460,25 +474,24 @@ fn free_step(
             factor[i][j] = if i == j { rest.max(1e-300).sqrt() } else { rest / factor[j][j] };
         }
     }
-    let solve = |right: &dyn Fn(usize) -> f64| {
+    let is_share: [f64; UNKNOWNS] =
+        std::array::from_fn(|i| if i < bounds.shares { 1.0 } else { 0.0 });
+    let [plain, along] = [slope.map(|slope| -slope), is_share].map(|right| {
         let mut x = [0.0; UNKNOWNS];
         for i in 0..count {
             let known: f64 = (0..i).map(|m| factor[i][m] * x[m]).sum();
-            x[i] = (right(free[i]) - known) / factor[i][i];
+            x[i] = (right[free[i]] - known) / factor[i][i];
         }
         for i in (0..count).rev() {
             let known: f64 = (i + 1..count).map(|m| factor[m][i] * x[m]).sum();
             x[i] = (x[i] - known) / factor[i][i];
         }
         x
-    };
-    let is_share = |i: usize| if i < bounds.shares { 1.0 } else { 0.0 };
-    let plain = solve(&|i| -slope[i]);
-    let along = solve(&is_share);
-    let of_shares = |x: &[f64; UNKNOWNS]| -> f64 {
-        free.iter().zip(x).map(|(&i, value)| is_share(i) * value).sum()
-    };
-    let multiplier = (of_shares(&along) > 0.0).then(|| of_shares(&plain) / of_shares(&along));
+    });
+    let [of_plain, of_along] = [&plain, &along].map(|x: &[f64; UNKNOWNS]| -> f64 {
+        free.iter().zip(x).map(|(&i, value)| is_share[i] * value).sum()
+    });
+    let multiplier = (of_along > 0.0).then(|| of_plain / of_along);
     let mut step = [0.0; UNKNOWNS];
     for (place, &i) in free.iter().enumerate() {
         step[i] = plain[place] - multiplier.unwrap_or(0.0) * along[place];
@@ -494,23 +507,24 @@ fn wrongly_held(
     held: &[bool; UNKNOWNS],
     multiplier: Option<f64>,
     bounds: &Bounds,
-    room: &dyn Fn(usize) -> (f64, f64),
+    point: &[f64; UNKNOWNS],
 ) -> Option<usize> {
-    let slope =
-        |i: usize| gradient[i] + (0..bounds.count).map(|j| matrix[i][j] * step[j]).sum::<f64>();
+    let count = bounds.count;
     // If no share is free, none can change alone, because their sum is fixed. The multiplier is then minus
     // the mean slope of all shares, and we free the share with the slope farthest from this mean.
     let shared = multiplier.unwrap_or_else(|| {
         let shares = bounds.shares.max(1);
-        -(0..bounds.shares).map(slope).sum::<f64>() / shares as f64
+        let slopes = (0..bounds.shares).map(|i| slope_at(matrix, gradient, step, count, i));
+        -slopes.sum::<f64>() / shares as f64
     });
     let mut worst = (1e-12, None);
-    for i in (0..bounds.count).filter(|&i| held[i]) {
-        let (down, up) = room(i);
+    for i in (0..count).filter(|&i| held[i]) {
+        let (down, up) = bounds.room(point, i);
         if up - down <= 0.0 {
             continue;
         }
-        let pull = slope(i) + if i < bounds.shares { shared } else { 0.0 };
+        let slope = slope_at(matrix, gradient, step, count, i);
+        let pull = slope + if i < bounds.shares { shared } else { 0.0 };
         // Moving inwards lowers the model where the slope is negative at the lower bound, or positive at the
         // upper bound.
         let gain = if step[i] <= down { -pull } else { pull };
@@ -603,14 +617,6 @@ mod tests {
 
     /// Least value of the quadratic model over a fine grid of three shares.
     fn by_grid(matrix: [[f64; 3]; 3], gradient: [f64; 3], point: [f64; 3], least: f64) -> f64 {
-        let value = |d: [f64; 3]| -> f64 {
-            (0..3)
-                .map(|i| {
-                    gradient[i] * d[i]
-                        + (0..3).map(|j| 0.5 * d[i] * matrix[i][j] * d[j]).sum::<f64>()
-                })
-                .sum()
-        };
         let steps = 400;
         let mut best = f64::INFINITY;
         for i in 0..=steps {
@@ -618,7 +624,12 @@ mod tests {
                 let k = steps - i - j;
                 let shares =
                     [i, j, k].map(|n| least + (1.0 - 3.0 * least) * n as f64 / steps as f64);
-                best = best.min(value(std::array::from_fn(|c| shares[c] - point[c])));
+                let d: [f64; 3] = std::array::from_fn(|c| shares[c] - point[c]);
+                let of_unknown = (0..3).map(|i: usize| {
+                    gradient[i] * d[i]
+                        + (0..3).map(|j| 0.5 * d[i] * matrix[i][j] * d[j]).sum::<f64>()
+                });
+                best = best.min(of_unknown.sum());
             }
         }
         best

@@ -712,11 +712,12 @@ mod tests {
     #[test]
     fn a_misspelt_pigment_is_reported_with_the_one_that_is_meant() {
         let known = ["Zinc White", "Viridian"].map(str::to_owned).to_vec();
-        let hint = |name: &str| {
+        for (name, hint) in [
+            ("Viridan", "did you mean Viridian? pigments: Zinc White, Viridian"),
+            ("Umber", "pigments: Zinc White, Viridian"),
+        ] {
             let error = RecipeError::UnknownPigment { name: name.to_owned(), known: known.clone() };
-            error.hint().unwrap().to_string()
-        };
-        assert_eq!(hint("Viridan"), "did you mean Viridian? pigments: Zinc White, Viridian");
-        assert_eq!(hint("Umber"), "pigments: Zinc White, Viridian");
+            assert_eq!(error.hint().unwrap().to_string(), hint);
+        }
     }
 }

@@ -37,11 +37,12 @@ pub(super) fn read_text(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>,
         return Err(InstrumentError::line(file, *row, expected, text));
     }
     let counts = ["sample", "dark", "reference", "scope"];
-    let is_counts = |heading: &String| counts.contains(&heading.to_lowercase().as_str());
-    let processed = (1..headings.len()).rev().find(|&column| !is_counts(&headings[column]));
+    let is_counts: Vec<bool> =
+        headings.iter().map(|it| counts.contains(&it.to_lowercase().as_str())).collect();
+    let processed = (1..headings.len()).rev().find(|&column| !is_counts[column]);
     let sample = (1..headings.len()).find(|&c| headings[c].eq_ignore_ascii_case("sample"));
     let column = processed.or(sample).unwrap_or(1);
-    let quantity = if is_counts(&headings[column]) {
+    let quantity = if is_counts[column] {
         MeasuredQuantity::Counts
     } else {
         MeasuredQuantity::of_words(&format!("{} {}", headings[column], units[column]))
@@ -104,11 +105,12 @@ pub(super) fn read_avasoft7(
     let stem = stem(file);
     let mut records: Vec<MeasuredSpectrum> = if matches!(ending.as_str(), "trm" | "abs") {
         let data = reader.f32s(3 * count)?;
-        let column =
-            |place: usize| -> Vec<f64> { data.chunks_exact(3).map(|pixel| pixel[place]).collect() };
+        let [sample, white, dark] = [0, 1, 2].map(|place: usize| -> Vec<f64> {
+            data.chunks_exact(3).map(|pixel| pixel[place]).collect()
+        });
         // AvaSoft calls the ratio of sample to white transmittance, even if the light is reflected.
         let quantity = MeasuredQuantity::Transmittance;
-        of_counts(file, &stem, quantity, &nm, [&column(0), &column(1), &column(2)])?
+        of_counts(file, &stem, quantity, &nm, [&sample, &white, &dark])?
     } else {
         let counts = MeasuredQuantity::Counts;
         let values = reader.f32s(count)?;
@@ -263,15 +265,14 @@ pub(super) fn of_counts(
     let counts = sample.iter().zip(white).zip(dark);
     let ratio = counts.map(|((sample, white), dark)| 100.0 * (sample - dark) / (white - dark));
     let ratio: Vec<f64> = ratio.collect();
-    let of = |letter: &str, role, values| {
-        of_pixels(file, format!("{name} ({letter})"), MeasuredQuantity::Counts, role, nm, values)
-    };
-    Ok(vec![
-        of_pixels(file, name.to_owned(), quantity, Role::Main, nm, &ratio)?,
-        of("S", Role::Sample, sample)?,
-        of("R", Role::White, white)?,
-        of("D", Role::Dark, dark)?,
-    ])
+    let mut found = vec![of_pixels(file, name.to_owned(), quantity, Role::Main, nm, &ratio)?];
+    for (letter, role, values) in
+        [("S", Role::Sample, sample), ("R", Role::White, white), ("D", Role::Dark, dark)]
+    {
+        let name = format!("{name} ({letter})");
+        found.push(of_pixels(file, name, MeasuredQuantity::Counts, role, nm, values)?);
+    }
+    Ok(found)
 }
 
 #[cfg(test)]

@@ -303,12 +303,12 @@ impl Fields {
     /// otherwise `stem` with a number.
     pub(super) fn names(&self, rows: &[Vec<Cell>], stem: &str) -> Vec<String> {
         let column = |column: usize| rows.iter().map(move |row| row[column].1.as_str());
-        let distinguishes = |&index: &usize| {
+        let distinguishing = [self.name, self.id].into_iter().flatten().find(|&index| {
             let all_named = column(index).all(|name| !name.is_empty());
             let differs = rows.len() < 2 || column(index).any(|name| name != rows[0][index].1);
             all_named && differs
-        };
-        match self.name.filter(distinguishes).or(self.id.filter(distinguishes)) {
+        });
+        match distinguishing {
             Some(index) => column(index).map(str::to_owned).collect(),
             None if rows.len() == 1 => vec![stem.to_owned()],
             None => (1..=rows.len()).map(|row| format!("{stem} {row}")).collect(),

@@ -31,11 +31,12 @@ pub(super) fn is_utf16(bytes: &[u8]) -> bool {
 /// Instrument files are mostly ASCII, of which every second byte is zero in UTF-16.
 fn guess_encoding(bytes: &[u8]) -> &'static Encoding {
     let start = &bytes[..bytes.len().min(200)];
-    let zeros = |odd: usize| start.iter().skip(odd).step_by(2).filter(|&&b| b == 0).count();
+    let [even, odd] =
+        [0, 1].map(|from| start.iter().skip(from).step_by(2).filter(|&&b| b == 0).count());
     let most = start.len() * 2 / 5;
-    if start.len() >= 8 && zeros(1) >= most && zeros(0) == 0 {
+    if start.len() >= 8 && odd >= most && even == 0 {
         UTF_16LE
-    } else if start.len() >= 8 && zeros(0) >= most && zeros(1) == 0 {
+    } else if start.len() >= 8 && even >= most && odd == 0 {
         UTF_16BE
     } else if std::str::from_utf8(bytes).is_ok() {
         UTF_8

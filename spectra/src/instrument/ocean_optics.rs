@@ -367,15 +367,17 @@ pub(super) mod tests {
     }
 
     fn counts_of(number: &str) -> Vec<(String, MeasuredQuantity, Role, Vec<f64>)> {
-        let counts = |letter: &str, role, values: [f64; 2]| {
+        let main = (format!("a{number}"), MeasuredQuantity::Unstated, Role::Main, vec![49.5, 19.2]);
+        let mut spectra = vec![main];
+        for (letter, role, values) in [
+            ("S", Role::Sample, vec![50.0, 20.0]),
+            ("R", Role::White, vec![100.0, 100.0]),
+            ("D", Role::Dark, vec![1.0, 1.0]),
+        ] {
             let name = format!("a{number} ({letter})");
-            (name, MeasuredQuantity::Counts, role, values.to_vec())
-        };
-        let sample = counts("S", Role::Sample, [50.0, 20.0]);
-        let white = counts("R", Role::White, [100.0, 100.0]);
-        let dark = counts("D", Role::Dark, [1.0, 1.0]);
-        let main = (format!("a{number}"), MeasuredQuantity::Unstated, Role::Main);
-        vec![(main.0, main.1, main.2, vec![49.5, 19.2]), sample, white, dark]
+            spectra.push((name, MeasuredQuantity::Counts, role, values));
+        }
+        spectra
     }
 
     fn summary(text: &str) -> Vec<(String, MeasuredQuantity, Role, Vec<f64>)> {

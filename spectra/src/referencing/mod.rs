@@ -298,9 +298,9 @@ fn sound_band(
     reflectance.splice(..0, below);
     reflectance.extend(all[end..].iter().map_while(|&nm| at(nm).ok()));
     let end = start + reflectance.len();
-    let reason = |nm: Option<&f64>| Some(at(*nm?).err()?.to_string());
-    let below = start.checked_sub(1).and_then(|last| reason(all.get(last)));
-    let left: Vec<String> = below.into_iter().chain(reason(all.get(end))).collect();
+    let beside = start.checked_sub(1).into_iter().chain([end]);
+    let left: Vec<String> =
+        beside.filter_map(|index| Some(at(*all.get(index)?).err()?.to_string())).collect();
     let left_out = (!left.is_empty())
         .then(|| format!("kept from {} to {} nm: {}", all[start], all[end - 1], left.join("; ")));
     Ok(SoundBand { nm: all[start..end].to_vec(), reflectance, left_out })

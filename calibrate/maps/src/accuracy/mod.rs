@@ -147,17 +147,14 @@ pub fn swatch_trials(
             let library = &sample.library;
             let nm: Vec<f64> = library.grid.wavelengths_nm().collect();
             let spectrum: Vec<f32> = sample.mixture.measured.iter().map(|r| *r as f32).collect();
-            let own = |groups: &[PigmentGroup]| MapSettings {
-                groups: groups.to_vec(),
+            let alone = MapSettings {
+                groups: Vec::new(),
                 group_alike: false,
-                model_error: settings
-                    .model_error
-                    .clone()
-                    .or(residuals.clone().map(ModelError::Residuals)),
+                model_error: settings.model_error.clone().or(residuals.map(ModelError::Residuals)),
                 ..settings.clone()
             };
             let truth = named.list(true_shares(sample));
-            let single = Mapper::new(library, &nm, &own(&[]))?;
+            let single = Mapper::new(library, &nm, &alone)?;
             let maps = single.search(&spectrum)?;
             let plain = Trial::of_map(&maps, 0, &vec![0.0; maps.pigments]);
             let list = |values: &[f64]| {
@@ -173,7 +170,8 @@ pub fn swatch_trials(
                 chi2: plain.chi2,
                 least: 0.0,
             };
-            let joined = Mapper::new(library, &nm, &own(groups))?;
+            let joined = MapSettings { groups: groups.to_vec(), ..alone };
+            let joined = Mapper::new(library, &nm, &joined)?;
             let maps = joined.search(&spectrum)?;
             let plain = Trial::of_map(&maps, 0, &vec![0.0; maps.pigments]);
             let mut sums = vec![0.0; named.count];
@@ -219,22 +217,12 @@ pub struct Choice {
 pub fn choose_penalty(of_penalty: &[(f64, SwatchTrials)], folds: usize) -> Choice {
     let count = of_penalty.first().map_or(0, |(_, trials)| trials.groups.len());
     let mut trials = SwatchTrials { pigments: Vec::new(), groups: Vec::new() };
-    let value = |trials: &SwatchTrials, fold: usize| {
-        let [groups, pigments] = [&trials.groups, &trials.pigments].map(|list| {
-            let kept = list.iter().enumerate().filter(|(index, _)| index % folds != fold);
-            Scores::of(kept.map(|(_, trial)| trial)).f1()
-        });
-        groups + pigments
-    };
     let chosen: Vec<usize> = (0..folds)
         .map(|fold: usize| {
             (0..of_penalty.len())
                 .reduce(|a: usize, b: usize| {
-                    if value(&of_penalty[b].1, fold) > value(&of_penalty[a].1, fold) {
-                        b
-                    } else {
-                        a
-                    }
+                    let [of_a, of_b] = [a, b].map(|at| f1_without(&of_penalty[at].1, folds, fold));
+                    if of_b > of_a { b } else { a }
                 })
                 .unwrap_or(0)
         })
@@ -245,6 +233,14 @@ pub fn choose_penalty(of_penalty: &[(f64, SwatchTrials)], folds: usize) -> Choic
         trials.groups.push(own.groups[index].clone());
     }
     Choice { trials, penalties: chosen.iter().map(|&index| of_penalty[index].0).collect() }
+}
+
+fn f1_without(trials: &SwatchTrials, folds: usize, fold: usize) -> f64 {
+    let [groups, pigments] = [&trials.groups, &trials.pigments].map(|list| {
+        let kept = list.iter().enumerate().filter(|(index, _)| index % folds != fold);
+        Scores::of(kept.map(|(_, trial)| trial)).f1()
+    });
+    groups + pigments
 }
 
 /// Groups of the Van Gogh oils that look alike from 400 to 700 nm. We report figures for these.

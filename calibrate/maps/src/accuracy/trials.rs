@@ -248,17 +248,16 @@ impl Trial {
     #[must_use]
     pub fn of_map(maps: &BlockMaps, index: usize, truth: &[f64]) -> Self {
         let columns = index * maps.pigments..(index + 1) * maps.pigments;
-        let list = |values: &[f32]| -> Vec<f64> {
-            values[columns.clone()].iter().map(|value| f64::from(*value)).collect()
-        };
         let mapped = maps.mask[index] == Mask::Mapped;
-        let probability = list(&maps.presence);
+        let [told, probability, sd] = [&maps.share, &maps.presence, &maps.share_sd].map(|values| {
+            values[columns.clone()].iter().map(|value| f64::from(*value)).collect::<Vec<f64>>()
+        });
         Self {
             truth: truth.to_vec(),
-            told: list(&maps.share).into_iter().map(|v| if mapped { v } else { 0.0 }).collect(),
+            told: told.into_iter().map(|v| if mapped { v } else { 0.0 }).collect(),
             present: probability.iter().map(|p| *p >= 0.5).collect(),
             probability,
-            sd: list(&maps.share_sd),
+            sd,
             chi2: f64::from(maps.chi2[index]),
             least: 0.0,
         }
@@ -518,13 +517,12 @@ impl Baseline {
         let mut target = spectra.pop().unwrap_or_default();
         let mut columns = spectra;
         if self == Self::Angle {
-            let cosine = |column: &Vec<f64>| dot(column, &target) / dot(column, column).sqrt();
+            let cosines: Vec<f64> = columns
+                .iter()
+                .map(|column| dot(column, &target) / dot(column, column).sqrt())
+                .collect();
             let nearest = (0..columns.len())
-                .reduce(
-                    |a: usize, b: usize| {
-                        if cosine(&columns[b]) > cosine(&columns[a]) { b } else { a }
-                    },
-                )
+                .reduce(|a: usize, b: usize| if cosines[b] > cosines[a] { b } else { a })
                 .unwrap_or(0);
             let shares = (0..columns.len()).map(|p| f64::from(u8::from(p == nearest))).collect();
             return Unmixed { shares };

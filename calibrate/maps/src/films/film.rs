@@ -624,15 +624,14 @@ mod tests {
         let seen: Vec<f32> =
             oils.paints.reflectance(&[(1, 0.6), (10, 0.4)]).iter().map(|r| *r as f32).collect();
         let pixel = oils.films.pixel(&noise, &seen);
-        let at = |shares: [f32; 3]| oils.films.difference(&pixel, [1, 4, 10], shares);
         let shares = [0.7, 0.05, 0.25];
-        let found = at(shares);
+        let found = oils.films.difference(&pixel, [1, 4, 10], shares);
         for i in 0..3 {
             let step = 0.01 * shares[i];
             let [above, below] = [step, -step].map(|step| {
                 let mut moved = shares;
                 moved[i] += step;
-                f64::from(at(moved).chi2)
+                f64::from(oils.films.difference(&pixel, [1, 4, 10], moved).chi2)
             });
             let quotient = (above - below) / (2.0 * f64::from(step));
             let slope = -2.0 * f64::from(found.right[i]);

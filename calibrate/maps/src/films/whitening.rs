@@ -502,21 +502,21 @@ mod tests {
     #[test]
     fn all_vectors_round_as_single_numbers_do() {
         for row in 0..50 {
-            let number = |lane: usize, factor: f32| {
-                let wave = (factor * (8 * row + lane) as f32).sin();
-                wave * wave * 10f32.powi((row as i32 + lane as i32) % 30 - 15)
-            };
-            let a: [f32; 8] = std::array::from_fn(|lane| number(lane, 1.3));
-            let mut b: [f32; 8] = std::array::from_fn(|lane| number(lane, 0.7));
+            let [a, mut b]: [[f32; 8]; 2] = [1.3, 0.7].map(|factor: f32| {
+                std::array::from_fn(|lane: usize| {
+                    let wave = (factor * (8 * row + lane) as f32).sin();
+                    wave * wave * 10f32.powi((row as i32 + lane as i32) % 30 - 15)
+                })
+            });
             b[row % 8] = a[row % 8];
-            let both = || All([f32x8::new(a), f32x8::new(b)]);
+            let both = [f32x8::new(a), f32x8::new(b)];
             let single: [[f32; 6]; 8] = std::array::from_fn(|i| {
                 let a = a[i];
                 let b = b[i];
                 [a + b, a - b, a * 3.7 * b, a / b, a.sqrt(), if a > b { a } else { b }]
             });
             let above = (0..8).fold(0, |bits, i| bits | u32::from(a[i] > b[i]) << i);
-            for (found, bits) in [by_vectors(both()), both().run(Halves)] {
+            for (found, bits) in [by_vectors(All(both)), All(both).run(Halves)] {
                 assert_eq!(bits, above, "{a:?} {b:?}");
                 for (operation, numbers) in found.iter().enumerate() {
                     for (lane, number) in numbers.iter().enumerate() {

@@ -35,19 +35,21 @@ pub(crate) fn survey(
 ) -> Result<Book, Cancelled> {
     let engine = &prepared.engine;
     let steps = task.steps_of("surveying", folded.len());
-    let search = |scratch: &mut Scratch, folded: &Folded| {
-        task.check()?;
-        let place = engine.table.nearest(&folded.point);
-        engine.search(&folded.pixel, place, scratch);
-        steps.step();
-        let best = scratch.found.first().map_or(0.0, |set| set.score);
-        let near = scratch.found.iter().take_while(|set| set.score < best + NEGLIGIBLE);
-        Ok((place, near.copied().collect::<Vec<SetFit>>()))
-    };
     let found: Vec<(usize, Vec<SetFit>)> = folded
         .par_iter()
-        .map_init(|| Scratch::new(&engine.films), search)
-        .collect::<Result<_, _>>()?;
+        .map_init(
+            || Scratch::new(&engine.films),
+            |scratch: &mut Scratch, folded: &Folded| {
+                task.check()?;
+                let place = engine.table.nearest(&folded.point);
+                engine.search(&folded.pixel, place, scratch);
+                steps.step();
+                let best = scratch.found.first().map_or(0.0, |set| set.score);
+                let near = scratch.found.iter().take_while(|set| set.score < best + NEGLIGIBLE);
+                Ok((place, near.copied().collect::<Vec<SetFit>>()))
+            },
+        )
+        .collect::<Result<_, Cancelled>>()?;
     task.check()?;
     let (paints, mut found): (Vec<usize>, Vec<Vec<SetFit>>) = found.into_iter().unzip();
     book.palette = palette(&found, &paints, &prepared.entries, excess(engine, &found));
@@ -331,14 +333,12 @@ mod tests {
             sets
         };
         let entries = [vec![0], vec![1, 2]];
-        let of = |first, second| palette(&[pixel(first, second)], &[1], &entries, 1.0);
+        let [equal, better, needed] = [(5.0, 5.0), (5.0, 7.0), (5.0, 24.0)]
+            .map(|(first, second)| palette(&[pixel(first, second)], &[1], &entries, 1.0));
         // Alone neither is needed, but one of them is.
-        let equal = of(5.0, 5.0);
         assert!(equal[0] < 0.01, "{equal:?}");
         assert!((equal[1] - 0.48).abs() < 0.01 && equal[1] == equal[2], "{equal:?}");
-        let better = of(5.0, 7.0);
         assert!(better[1] > 2.5 * better[2] && better[2] > 0.2, "{better:?}");
-        let needed = of(5.0, 24.0);
         assert!(needed[1] > 0.9 && needed[2] < 0.01, "{needed:?}");
         // Two paints, each of which needs another of them.
         let both = palette(&[pixel(5.0, 24.0), pixel(24.0, 5.0)], &[1, 2], &entries, 1.0);

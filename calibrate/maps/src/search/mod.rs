@@ -467,16 +467,16 @@ fn split(list: &[Point], order: &mut [u32], start: usize, nodes: &mut Vec<Node>)
     let range = (start as u32, (start + order.len()) as u32);
     let leaf = DIMENSIONS as u32;
     nodes.push(Node { first: range.0, last: range.1, dimension: leaf, value: 0.0, above: 0 });
-    let spread = |dimension: usize| {
+    let spreads: [f32; DIMENSIONS] = std::array::from_fn(|dimension| {
         let values = order.iter().map(|&place| list[place as usize][dimension]);
         let ends = values
             .fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
         ends.1 - ends.0
-    };
+    });
     let dimension = (0..DIMENSIONS)
-        .reduce(|a: usize, b: usize| if spread(b) > spread(a) { b } else { a })
+        .reduce(|a: usize, b: usize| if spreads[b] > spreads[a] { b } else { a })
         .unwrap_or(0);
-    let differs = spread(dimension) > 0.0;
+    let differs = spreads[dimension] > 0.0;
     if order.len() <= LEAF || !differs {
         return;
     }

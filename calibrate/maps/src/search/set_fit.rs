@@ -175,10 +175,10 @@ impl Difference {
     pub(crate) fn exactness(&self, count: usize, excess: f64) -> f64 {
         let last = count - 1;
         let mut left = [[0.0; MOST_IN_SET]; MOST_IN_SET];
-        let at = |i: usize, j: usize| f64::from(self.normal[i][j]);
+        let normal = self.normal.map(|row| row.map(f64::from));
         for i in 0..last {
             for j in 0..last {
-                let along = at(i, j) - at(i, last) - at(j, last) + at(last, last);
+                let along = normal[i][j] - normal[i][last] - normal[j][last] + normal[last][last];
                 left[i][j] = FREE_SHARE * along / excess + if i == j { 1.0 } else { 0.0 };
             }
         }

@@ -55,16 +55,15 @@ impl StoredMaps {
         let group: Value = serde_json::from_slice(&bytes)
             .map_err(|error| damaged(format!("is not JSON: {error}")))?;
         let attributes = group["attributes"].as_object().cloned().unwrap_or_default();
-        let range = |key: &str| -> Option<Range<usize>> {
+        let [rows, columns] = ["rows", "columns"].map(|key| -> Option<Range<usize>> {
             let ends = attributes.get(key)?.as_array()?;
             let [start, end] = [0, 1].map(|at| usize::try_from(ends.get(at)?.as_u64()?).ok());
             Some(start?..end?)
-        };
+        });
         let names = attributes.get("pigments").and_then(Value::as_array).map(|names| {
             names.iter().map(|name| name.as_str().unwrap_or_default().to_owned()).collect()
         });
-        let (Some(pigments), Some(rows), Some(columns)) = (names, range("rows"), range("columns"))
-        else {
+        let (Some(pigments), Some(rows), Some(columns)) = (names, rows, columns) else {
             return Err(damaged("describes no pigment maps".to_owned()));
         };
         let pigments: Vec<String> = pigments;

@@ -562,19 +562,18 @@ fn check(path: &Path) -> Result<(), TruthError> {
     if !path.exists() {
         return Ok(());
     }
-    let exists = || TruthError::Exists { path: path.to_owned() };
-    let held = entries(path).map_err(|_| exists())?;
     let arrays = TruthArray::ALL.map(TruthArray::name);
-    let is_other = held.contains(GROUP) && !is_truth(path);
-    if is_other
-        || !held.iter().all(|name: &String| {
-            let own =
-                arrays.contains(&name.as_str()) || ["y", "x", "pigment"].contains(&name.as_str());
-            own || name == GROUP || name.starts_with(".impasto-")
-        })
-    {
-        Err(exists())
-    } else {
-        Ok(())
+    let is_own = entries(path).is_ok_and(|held| {
+        let is_other = held.contains(GROUP) && !is_truth(path);
+        let mut names = held.iter().map(String::as_str);
+        !is_other
+            && names.all(|name| {
+                let own = arrays.contains(&name) || ["y", "x", "pigment"].contains(&name);
+                own || name == GROUP || name.starts_with(".impasto-")
+            })
+    });
+    match is_own {
+        true => Ok(()),
+        false => Err(TruthError::Exists { path: path.to_owned() }),
     }
 }

@@ -160,14 +160,12 @@ fn pixels_that_cannot_be_mapped_are_told_with_their_reason() {
     let path = fractions(folder.path(), "data ignore value = -1\n");
     let data = path.with_extension("raw");
     let mut bytes = std::fs::read(&data).unwrap();
-    let mut set = |line: usize, sample: usize, band: usize, value: f32| {
+    for (line, sample, band, value) in
+        [(0, 0, 3, -1.0_f32), (1, 2, 0, f32::NAN), (2, 3, 1, 1.5), (4, 6, 2, -0.2)]
+    {
         let at = ((line * BANDS + band) * SAMPLES + sample) * 4;
         bytes[at..at + 4].copy_from_slice(&value.to_le_bytes());
-    };
-    set(0, 0, 3, -1.0);
-    set(1, 2, 0, f32::NAN);
-    set(2, 3, 1, 1.5);
-    set(4, 6, 2, -0.2);
+    }
     std::fs::write(&data, &bytes).unwrap();
     let cube = Cube::open(&path).unwrap();
     let block = cube.read_rows(0..LINES).unwrap();

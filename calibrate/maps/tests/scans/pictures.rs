@@ -78,22 +78,23 @@ fn a_folder_of_pictures_is_read_in_the_order_of_numbers() {
     check(&Cube::open_with(folder.path(), &options).unwrap(), 1.0 / 200.0, "another list");
 }
 
+fn folder_of_png() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("wavelengths.csv"), LIST).unwrap();
+    for band in 0..BANDS {
+        write_png(&folder.path().join(format!("{band}.png")), &plane(band));
+    }
+    folder
+}
+
 #[test]
 fn pictures_that_do_not_fit_are_refused() {
-    let make = || {
-        let folder = tempfile::tempdir().unwrap();
-        std::fs::write(folder.path().join("wavelengths.csv"), LIST).unwrap();
-        for band in 0..BANDS {
-            write_png(&folder.path().join(format!("{band}.png")), &plane(band));
-        }
-        folder
-    };
-    let folder = make();
+    let folder = folder_of_png();
     std::fs::remove_file(folder.path().join("2.png")).unwrap();
     let (found, _) = refused(folder.path(), &by_20000());
     assert!(found.ends_with("has 4 wavelengths, the folder 3 pictures"), "{found}");
 
-    let folder = make();
+    let folder = folder_of_png();
     let file = File::create(folder.path().join("2.png")).unwrap();
     let mut encoder = png::Encoder::new(file, 3, 2);
     encoder.set_color(png::ColorType::Grayscale);
@@ -102,7 +103,7 @@ fn pictures_that_do_not_fit_are_refused() {
     let words = "2.png: the picture has 3 x 2 pixels of U8, the first picture of the stack 7 x 5 pixels of U16";
     assert!(found.ends_with(words), "{found}");
 
-    let folder = make();
+    let folder = folder_of_png();
     let file = File::create(folder.path().join("0.png")).unwrap();
     let mut encoder = png::Encoder::new(file, 3, 2);
     encoder.set_color(png::ColorType::Rgb);
@@ -110,14 +111,14 @@ fn pictures_that_do_not_fit_are_refused() {
     let (found, _) = refused(folder.path(), &by_20000());
     assert!(found.contains("0.png: the picture is of kind") && found.contains("gray"), "{found}");
 
-    let folder = make();
+    let folder = folder_of_png();
     let path = folder.path().join("1.png");
     let bytes = std::fs::read(&path).unwrap();
     std::fs::write(&path, &bytes[..bytes.len() - 30]).unwrap();
     let (found, _) = refused(folder.path(), &by_20000());
     assert!(found.contains("1.png"), "{found}");
 
-    let folder = make();
+    let folder = folder_of_png();
     let options = CubeOptions { scratch: Some("/no/such/folder".into()), ..by_20000() };
     let (found, hint) = refused(folder.path(), &options);
     assert!(found.starts_with("/no/such/folder: unpacked values cannot be written"), "{found}");
@@ -205,23 +206,18 @@ fn write_chunky(path: &Path) {
 /// A page of all bands in tiles of 16 x 16 pixels, band after band or side by side.
 fn tiled(is_planar: bool) -> Vec<u8> {
     const SIDE: usize = 16;
-    let number = |band: usize, line: usize, sample: usize| match line < LINES && sample < SAMPLES {
-        true => u16::from(value(line, sample, band)) * 100,
-        false => 9999,
-    };
-    let places = || (0..SIDE).flat_map(|line| (0..SIDE).map(move |sample| (line, sample)));
-    let tiles: Vec<Vec<u16>> = match is_planar {
-        true => {
-            (0..BANDS).map(|band| places().map(|(l, s)| number(band, l, s)).collect()).collect()
+    let mut tiles: Vec<Vec<u16>> = vec![Vec::new(); if is_planar { BANDS } else { 1 }];
+    for line in 0..SIDE {
+        for sample in 0..SIDE {
+            for band in 0..BANDS {
+                let number = match line < LINES && sample < SAMPLES {
+                    true => u16::from(value(line, sample, band)) * 100,
+                    false => 9999,
+                };
+                tiles[if is_planar { band } else { 0 }].push(number);
+            }
         }
-        false => {
-            vec![
-                places()
-                    .flat_map(|(l, s)| (0..BANDS).map(move |band| number(band, l, s)))
-                    .collect(),
-            ]
-        }
-    };
+    }
     let mut bytes = b"II*\0\0\0\0\0".to_vec();
     let sizes: Vec<u32> = tiles.iter().map(|tile| tile.len() as u32 * 2).collect();
     let offsets: Vec<u32> = tiles

@@ -230,10 +230,9 @@ fn a_white_of_another_time_is_scaled_by_its_own_dark() {
 fn columns_without_light_are_not_mapped_and_told() {
     let folder = tempfile::tempdir().unwrap();
     let wide = 40;
-    let text = |lines: usize| {
-        let text = header("bil", 12, "").replace("samples = 7", &format!("samples = {wide}"));
-        text.replace("lines = 5", &format!("lines = {lines}"))
-    };
+    let text = header("bil", 12, "").replace("samples = 7", &format!("samples = {wide}"));
+    let [one_line, two_lines] =
+        [1, 2].map(|lines| text.replace("lines = 5", &format!("lines = {lines}")));
     let counts = |lines: usize, count: &dyn Fn(usize) -> u16| -> Vec<u8> {
         let rows = (0..lines * BANDS).flat_map(|_| 0..wide);
         rows.flat_map(|column| count(column).to_le_bytes()).collect()
@@ -241,9 +240,9 @@ fn columns_without_light_are_not_mapped_and_told() {
     let capture = folder.path().join("capture");
     std::fs::create_dir(&capture).unwrap();
     let white = counts(1, &|column| if column == 3 { 100 } else { 1100 });
-    write_envi(&capture, "WHITEREF_a", &text(1), &white);
-    write_envi(&capture, "DARKREF_a", &text(1), &counts(1, &|_| 100));
-    write_envi(&capture, "a", &text(2), &counts(2, &|_| 600));
+    write_envi(&capture, "WHITEREF_a", &one_line, &white);
+    write_envi(&capture, "DARKREF_a", &one_line, &counts(1, &|_| 100));
+    write_envi(&capture, "a", &two_lines, &counts(2, &|_| 600));
     let cube = Cube::open(folder.path()).unwrap();
     let told =
         cube.remarks().iter().any(|remark| remark.starts_with("1 of 40 columns have no light"));

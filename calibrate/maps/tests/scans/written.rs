@@ -17,11 +17,10 @@ pub(crate) fn value(line: usize, sample: usize, band: usize) -> u8 {
 /// Numbers of the scan in the order of an interleave.
 pub(crate) fn in_order(interleave: &str) -> Vec<u8> {
     let mut values = Vec::new();
-    let mut add = |line, sample, band| values.push(value(line, sample, band));
     match interleave {
-        "bsq" => each(BANDS, LINES, SAMPLES, |band, line, sample| add(line, sample, band)),
-        "bil" => each(LINES, BANDS, SAMPLES, |line, band, sample| add(line, sample, band)),
-        "bip" => each(LINES, SAMPLES, BANDS, add),
+        "bsq" => each(BANDS, LINES, SAMPLES, |b, l, s| values.push(value(l, s, b))),
+        "bil" => each(LINES, BANDS, SAMPLES, |l, b, s| values.push(value(l, s, b))),
+        "bip" => each(LINES, SAMPLES, BANDS, |l, s, b| values.push(value(l, s, b))),
         other => panic!("{other}"),
     }
     values

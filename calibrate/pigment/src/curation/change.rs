@@ -77,11 +77,10 @@ pub fn subset(
     keep: &[String],
     without: &[String],
 ) -> Result<PigmentLibrary, CurationError> {
-    let found = |names: &[String]| -> Result<Vec<PigmentId>, CurationError> {
-        names.iter().map(|name| find(file, library, name)).collect()
-    };
-    let kept = found(keep)?;
-    let dropped = found(without)?;
+    let kept: Vec<PigmentId> =
+        keep.iter().map(|name| find(file, library, name)).collect::<Result<_, _>>()?;
+    let dropped: Vec<PigmentId> =
+        without.iter().map(|name| find(file, library, name)).collect::<Result<_, _>>()?;
     let ids: Vec<PigmentId> = library
         .ids()
         .filter(|id| (keep.is_empty() || kept.contains(id)) && !dropped.contains(id))
@@ -217,13 +216,12 @@ pub fn on_grid(
         .pigments
         .iter()
         .map(|pigment| -> Result<Pigment, InterpolateError> {
-            let sd =
-                |values: &[f64]| curve(library.grid, values, grid, Interpolation::Linear, ends);
+            let linear = Interpolation::Linear;
             Ok(Pigment {
                 absorption: curve(library.grid, &pigment.absorption, grid, method, ends)?,
                 scattering: curve(library.grid, &pigment.scattering, grid, method, ends)?,
-                absorption_sd: sd(&pigment.absorption_sd)?,
-                scattering_sd: sd(&pigment.scattering_sd)?,
+                absorption_sd: curve(library.grid, &pigment.absorption_sd, grid, linear, ends)?,
+                scattering_sd: curve(library.grid, &pigment.scattering_sd, grid, linear, ends)?,
                 ..pigment.clone()
             })
         })

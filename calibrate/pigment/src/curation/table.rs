@@ -393,18 +393,17 @@ impl Swatches {
         let mut swatches = Vec::new();
         for id in library.ids() {
             let pigment = &library[id];
-            let mut add = |name: String, recipe: &[(PigmentId, f64)]| {
+            let mut recipes = vec![(pigment.name.clone(), vec![(id, 1.0)])];
+            if let Some(white) = white.filter(|&white| white != id && pigment.identified) {
+                recipes.extend(tints.iter().map(|parts| {
+                    (format!("{} 1:{parts}", pigment.name), vec![(id, 1.0), (white, *parts)])
+                }));
+            }
+            for (name, recipe) in recipes {
                 let mixture = library.mix(recipe).expect("pigments of the library");
                 let reflectance = mixture.hiding(library.saunderson);
                 let color = weights.color(&reflectance);
                 swatches.push(Swatch { pigment: pigment.name.clone(), name, reflectance, color });
-            };
-            add(pigment.name.clone(), &[(id, 1.0)]);
-            let Some(white) = white.filter(|&white| white != id && pigment.identified) else {
-                continue;
-            };
-            for parts in tints {
-                add(format!("{} 1:{parts}", pigment.name), &[(id, 1.0), (white, *parts)]);
             }
         }
         let title = library.title.clone();

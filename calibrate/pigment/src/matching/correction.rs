@@ -655,13 +655,13 @@ mod tests {
     #[test]
     fn a_cancelled_task_ends_a_correction() {
         let oils = PigmentLibrary::van_gogh_oils();
-        let paint = |blue: f64| {
+        let [standard, painted] = [12.0, 9.0].map(|blue: f64| {
             let parts = [("Zinc White", 100.0), ("Cobalt Blue", blue)];
             oils.color(parts, &Viewing::default()).unwrap().reflectance
-        };
-        let target = ColorTarget::measured("standard", paint(12.0));
+        });
+        let target = ColorTarget::measured("standard", standard);
         let made = vec![("Zinc White".to_owned(), 100.0), ("Cobalt Blue".to_owned(), 12.0)];
-        let batch = Batch { made, grams: 500.0, reflectance: paint(9.0) };
+        let batch = Batch { made, grams: 500.0, reflectance: painted };
         let request = CorrectRequest { at_most: 1, ..CorrectRequest::default() };
         let task = Task::default();
         let found = request.run(&oils, &target, &batch, &task).unwrap();

@@ -172,12 +172,12 @@ impl RecipeLimits {
         if let Some(cost) = self.costs.iter().find(|c| !(c.is_finite() && **c >= 0.0)) {
             return invalid("a cost is 0 or more", *cost, "try [cost=\"Cobalt Blue=0.9\"]");
         }
-        let fixed = || self.required.iter().filter_map(|required| required.share);
-        let total: f64 = fixed().sum();
+        let mut fixed = self.required.iter().filter_map(|required| required.share);
+        let total: f64 = fixed.clone().sum();
         let all_fixed =
             !self.required.is_empty() && self.required.iter().all(|r| r.share.is_some());
         let whole = total > 1.0 + 1e-9 || (total > 1.0 - 1e-9 && !all_fixed);
-        if whole || fixed().any(|share| !(share > 0.0 && share <= 1.0)) {
+        if whole || fixed.any(|share| !(share > 0.0 && share <= 1.0)) {
             return Err(MatchError::Shares { total });
         }
         if self.whole_parts.is_some() && total > 0.0 {

@@ -105,10 +105,9 @@ pub(super) fn recipes_and_nearest(
         }
     };
     task.check()?;
-    let cost = |candidate: &Candidate| cost(library, limits, candidate);
     let nearest = found.iter().map(|(_, c)| c.distance).fold(f64::INFINITY, f64::min);
-    let ranked = ranked(found, nearest, limits, &cost);
-    let recipes = ranked.into_iter().map(|found| recipe(&forward, limits, target, found, &cost));
+    let ranked = ranked(library, found, nearest, limits);
+    let recipes = ranked.into_iter().map(|found| recipe(library, &forward, limits, target, found));
     Ok((recipes.collect(), nearest))
 }
 
@@ -120,17 +119,17 @@ const SPARE_RECIPES: usize = 5;
 type Found = (Option<Vec<u32>>, Candidate);
 
 fn ranked(
+    library: &PigmentLibrary,
     mut found: Vec<Found>,
     nearest: f64,
     limits: &RecipeLimits,
-    cost: &dyn Fn(&Candidate) -> f64,
 ) -> Vec<Found> {
     let tolerated = nearest + limits.tolerance;
     found.sort_by(|(_, a), (_, b)| {
         let by_distance = a.distance.total_cmp(&b.distance);
         let order = match (a.distance <= tolerated, b.distance <= tolerated) {
-            (true, true) => cost(a)
-                .total_cmp(&cost(b))
+            (true, true) => cost(library, limits, a)
+                .total_cmp(&cost(library, limits, b))
                 .then(a.pigments.len().cmp(&b.pigments.len()))
                 .then(steps_beyond(nearest, a).total_cmp(&steps_beyond(nearest, b)))
                 .then(smallest_share(b).total_cmp(&smallest_share(a))),
@@ -177,11 +176,11 @@ fn cost(library: &PigmentLibrary, limits: &RecipeLimits, candidate: &Candidate) 
 }
 
 fn recipe(
+    library: &PigmentLibrary,
     forward: &Forward<'_>,
     limits: &RecipeLimits,
     target: &Target,
     (parts, candidate): Found,
-    cost: &dyn Fn(&Candidate) -> f64,
 ) -> RecipeMatch {
     let Candidate { pigments, shares, thickness, distance } = &candidate;
     let mut scratch = Scratch::default();
@@ -201,7 +200,7 @@ fn recipe(
         lab: labs,
         reflectance,
         at_limit: order.iter().filter_map(|&at| at_limit(limits, &candidate, at)).collect(),
-        cost: (!limits.costs.is_empty()).then(|| cost(&candidate)),
+        cost: (!limits.costs.is_empty()).then(|| cost(library, limits, &candidate)),
     }
 }
 

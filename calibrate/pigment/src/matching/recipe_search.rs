@@ -369,12 +369,10 @@ mod tests {
 
     #[test]
     fn the_nearest_is_reported_though_the_list_stops_within_the_tolerance() {
-        let of = |tolerance: f64| {
+        let [fine, coarse] = [0.0, 2.0].map(|tolerance| {
             let tolerance = Some(tolerance);
             search("45,10,20", MatchRequest { tolerance, count: 1, ..MatchRequest::default() })
-        };
-        let fine = of(0.0);
-        let coarse = of(2.0);
+        });
         assert!((fine.nearest() - coarse.nearest()).abs() < 1e-9);
         assert!(coarse.recipes[0].distance > coarse.nearest(), "{:?}", coarse.recipes[0]);
         assert!(coarse.recipes[0].distance <= coarse.nearest() + 2.0);

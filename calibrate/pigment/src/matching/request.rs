@@ -264,16 +264,14 @@ impl MatchRequest {
         limits.allowed.retain(|pigment| !without.contains(pigment));
         limits.allowed.sort_unstable();
         limits.allowed.dedup();
-        let unknown = |allowed: bool| -> Vec<&str> {
+        let [used, left_out] = [true, false].map(|allowed| -> Vec<&str> {
             let of_those = library.ids().filter(|id| {
                 !library[*id].identified
                     && limits.allowed.contains(id) == allowed
                     && !without.contains(id)
             });
             of_those.map(|id| library[id].name.as_str()).collect()
-        };
-        let used = unknown(true);
-        let left_out = unknown(false);
+        });
         if !used.is_empty() {
             let text =
                 format!("S is not known of {}; recipes with it are a guess", used.join(", "));
@@ -299,12 +297,11 @@ pub(super) fn find_all(
 /// # Errors
 /// [`RequestError`] for any other text. Its hint is for the key `setting`.
 pub fn parse_share(text: &str, setting: &str) -> Result<f64, RequestError> {
-    let number = |text: &str| text.trim().parse::<f64>().ok();
-    let value = match text.split_once('/') {
-        Some((numerator, denominator)) => {
-            number(numerator).zip(number(denominator)).map(|(n, d)| n / d)
-        }
-        None => number(text),
+    let numbers: Option<Vec<f64>> = text.split('/').map(|part| part.trim().parse().ok()).collect();
+    let value = match numbers.as_deref() {
+        Some([number]) => Some(*number),
+        Some([numerator, denominator]) => Some(numerator / denominator),
+        _ => None,
     };
     value.filter(|value| (0.0..=1.0).contains(value)).ok_or_else(|| {
         let example = if setting == "with" { "NAME=" } else { "" };
@@ -334,21 +331,16 @@ fn read_thickness<'de, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<Option<Thickness>, D::Error> {
     from_text(deserializer, |text| {
-        let number = |text: &str| text.parse::<f64>().ok().filter(|t| *t > 0.0 && *t <= THICKEST);
-        let thickness = match text.split_once([':', ',']) {
-            Some((least, most)) => number(least)
-                .zip(number(most))
-                .filter(|(least, most)| least < most)
-                .map(|(least, most)| Thickness::Between(least, most)),
-            None => number(text).map(Thickness::Fixed),
-        };
-        let refused = || {
-            RequestError::value(
+        let numbers = text.split([':', ',']).map(|part| part.parse::<f64>().ok());
+        let numbers = numbers.map(|number| number.filter(|t| *t > 0.0 && *t <= THICKEST));
+        match numbers.collect::<Option<Vec<f64>>>().as_deref() {
+            Some([thickness]) => Ok(Some(Thickness::Fixed(*thickness))),
+            Some([least, most]) if least < most => Ok(Some(Thickness::Between(*least, *most))),
+            _ => Err(RequestError::value(
                 format!("takes T or LEAST:MOST, above 0 and up to 1e9, found `{text}`"),
                 "try [thickness=1] or [thickness=0.2:3]",
-            )
-        };
-        thickness.ok_or_else(refused).map(Some)
+            )),
+        }
     })
 }
 
@@ -393,8 +385,8 @@ struct Entry {
 
 impl Serialize for PriceList {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let text = |entry: &Entry| format!("{}={}", entry.pigment, entry.price);
-        serializer.collect_seq(self.entries.iter().map(text))
+        let texts = self.entries.iter().map(|entry| format!("{}={}", entry.pigment, entry.price));
+        serializer.collect_seq(texts)
     }
 }
 

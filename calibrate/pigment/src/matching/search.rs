@@ -324,17 +324,21 @@ fn descend_within(
         if chooses_thickness { point[shares].exp().clamp(thinnest, thickest) } else { thinnest }
     };
     let has_limits = pigments.iter().any(|&pigment| limits.amount_bounds(pigment).is_some());
-    let mut cost_at = |point: &[f64; UNKNOWNS]| {
-        let unknowns = &point[..count];
-        let thickness = thickness_at(point);
-        let mut cost =
-            forward.cost(target, pigments, unknowns, thickness, chooses_thickness, scratch);
-        if has_limits && !bounds_hold {
-            add_penalty(&mut cost, limits, pigments, unknowns, thickness);
-        }
-        cost
-    };
-    let cost = descend_within_bounds(&mut cost_at, &mut point, &bounds, STEPS);
+    let cost = descend_within_bounds(
+        |point: &[f64; UNKNOWNS]| {
+            let unknowns = &point[..count];
+            let thickness = thickness_at(point);
+            let mut cost =
+                forward.cost(target, pigments, unknowns, thickness, chooses_thickness, scratch);
+            if has_limits && !bounds_hold {
+                add_penalty(&mut cost, limits, pigments, unknowns, thickness);
+            }
+            cost
+        },
+        &mut point,
+        &bounds,
+        STEPS,
+    );
     let shares = point[..shares].to_vec();
     let thickness = thickness_at(&point);
     let distance = if has_limits {
@@ -379,12 +383,12 @@ fn add_penalty(
 
 /// Least and greatest sum of all amounts that the limits of a set of pigments allow.
 fn totals(limits: &RecipeLimits, pigments: &[PigmentId]) -> (f64, f64) {
-    let bounds = || pigments.iter().map(|&pigment| (pigment, limits.amount_bounds(pigment)));
-    let least: f64 = bounds().filter_map(|(_, limits)| Some(limits?[0])).sum();
+    let bounds = pigments.iter().map(|&pigment| limits.amount_bounds(pigment));
+    let least: f64 = bounds.clone().filter_map(|bounds| Some(bounds?[0])).sum();
     // Shares of a pigment without limits may have any size, and fixed shares stay fixed.
-    let taken: f64 = bounds().map(|(pigment, _)| limits.share_bounds(pigment).0).sum();
+    let taken: f64 = pigments.iter().map(|&pigment| limits.share_bounds(pigment).0).sum();
     let thinnest = if least > 0.0 { least / (1.0 - taken).max(f64::MIN_POSITIVE) } else { 0.0 };
-    let most = bounds().map(|(_, limits)| limits.map_or(f64::INFINITY, |[_, most]| most));
+    let most = bounds.map(|bounds| bounds.map_or(f64::INFINITY, |[_, most]| most));
     (if pigments.len() == 1 { least } else { thinnest }, most.sum())
 }
 
@@ -402,9 +406,9 @@ pub(super) fn within_limits(limits: &RecipeLimits, recipe: &Candidate) -> Option
         recipe.shares.iter().zip(&bounds).map(|(share, b)| share.clamp(b.0, b.1)).collect();
     // We divide the missing amount in proportion to the room that each share has.
     let missing = 1.0 - shares.iter().sum::<f64>();
-    let room =
-        |(share, b): (&f64, &(f64, f64))| if missing > 0.0 { b.1 - share } else { share - b.0 };
-    let rooms: Vec<f64> = shares.iter().zip(&bounds).map(room).collect();
+    let rooms: Vec<f64> = (shares.iter().zip(&bounds))
+        .map(|(share, b)| if missing > 0.0 { b.1 - share } else { share - b.0 })
+        .collect();
     let total: f64 = rooms.iter().sum();
     if total > 0.0 {
         for (share, room) in shares.iter_mut().zip(&rooms) {

@@ -461,16 +461,16 @@ pub fn graded(
                     Some(at_nodes(palette, &rules.three, &mixture)),
                     Some(Appearance::of(Xyz::from(straight), white)),
                 ];
-                let own = |row: MixingRow| colors[row as usize].map(|color| color.lab);
-                let (truth, row) = own(MixingRow::Measured).map_or_else(
-                    || (own(MixingRow::Spectrum), MixingRow::Spectrum),
+                let labs = colors.map(|color| color.map(|color| color.lab));
+                let (truth, row) = labs[MixingRow::Measured as usize].map_or_else(
+                    || (labs[MixingRow::Spectrum as usize], MixingRow::Spectrum),
                     |lab| (Some(lab), MixingRow::Measured),
                 );
                 GradedStep {
                     share,
                     sample: sample.map(|sample| sample.sample.clone()),
                     errors: MixingRow::ALL.map(|other| {
-                        let lab: Lab = own(other).filter(|_| other != row)?;
+                        let lab: Lab = labs[other as usize].filter(|_| other != row)?;
                         Some(delta_e_ciede2000(truth?, lab))
                     }),
                     colors,
@@ -500,15 +500,15 @@ pub fn default_pairs(
     let mut chosen: Vec<(PigmentId, PigmentId)> =
         pairs.iter().take(2).map(|(_, p)| white_second(palette, *p)).collect();
 
-    let extreme = |sign: f64| {
+    let [yellow, blue] = [1.0, -1.0].map(|sign: f64| {
         let most = palette.paints().iter().map(|&p| {
             (p, [0.0, 3.0, 9.0].map(|n| sign * palette.color(&palette.tint(p, n)).lab.b))
         });
         most.map(|(p, b)| (p, b.into_iter().fold(f64::NEG_INFINITY, f64::max)))
             .reduce(|a, b| if b.1 > a.1 { b } else { a })
             .map(|(p, _)| p)
-    };
-    if let (Some(yellow), Some(blue)) = (extreme(1.0), extreme(-1.0))
+    });
+    if let (Some(yellow), Some(blue)) = (yellow, blue)
         && yellow != blue
         && !chosen.contains(&(yellow, blue))
         && !chosen.contains(&(blue, yellow))
@@ -558,13 +558,12 @@ fn shares(
     let mut steps: Vec<(f64, Option<&MeasuredSample>)> =
         (0..=10).map(|tenth| (f64::from(tenth) / 10.0, None)).collect();
     for (share, sample) in steps_of(pair, measured) {
-        let free = |(place, kept): &(f64, Option<&MeasuredSample>)| {
+        let known = steps.iter().any(|(place, kept)| kept.is_some() && *place == share);
+        let near = steps.iter().enumerate().filter(|(_, (place, kept))| {
             // The ends are masstones. A mixture must not replace them.
             let end = *place == 0.0 || *place == 1.0;
             kept.is_none() && if end { share == *place } else { (place - share).abs() <= NEAR }
-        };
-        let known = steps.iter().any(|(place, kept)| kept.is_some() && *place == share);
-        let near = steps.iter().enumerate().filter(|(_, step)| free(step));
+        });
         let nearest = near.min_by(|a, b| (a.1.0 - share).abs().total_cmp(&(b.1.0 - share).abs()));
         match nearest.map(|(at, _)| at) {
             _ if known => {}

@@ -313,14 +313,12 @@ pub fn color_wheel(palette: &Palette<'_>) -> ColorWheel {
         lines: palette
             .pairs()
             .map(|(first, second)| {
-                let color = |share: f64| {
+                let colors = [0.0].into_iter().chain(shares()).chain([1.0]).map(|share: f64| {
                     let parts = [(first, share), (second, 1.0 - share)];
                     let mixed: Recipe = parts.into_iter().filter(|(_, part)| *part > 0.0).collect();
                     (share, palette.color(&mixed))
-                };
-                let inner = shares().map(color);
-                let colors = [color(0.0)].into_iter().chain(inner).chain([color(1.0)]).collect();
-                MixingLine { pair: [first, second], colors }
+                });
+                MixingLine { pair: [first, second], colors: colors.collect() }
             })
             .collect(),
         gamut: sampled_gamut(palette),
@@ -436,13 +434,14 @@ mod tests {
                 let wanted = library.color([(name, 1.0)], palette.viewing()).unwrap();
                 assert!(distance(found.lab, wanted.lab) < 1e-6, "{name}: {found:?}");
             }
-            let masstone =
-                |paint| wheel.masstones.iter().find(|(of, _)| *of == paint).expect("a tube").1.lab;
-            for MixingLine { pair: [first, second], colors } in &wheel.lines {
+            for MixingLine { pair, colors } in &wheel.lines {
+                let [first, second] = pair.map(|paint| {
+                    wheel.masstones.iter().find(|(of, _)| *of == paint).expect("a tube").1.lab
+                });
                 let start = colors[0].1.lab;
                 let end = colors[colors.len() - 1].1.lab;
-                assert!(distance(start, masstone(*second)) < 1e-9, "{first:?} {second:?}");
-                assert!(distance(end, masstone(*first)) < 1e-9, "{first:?} {second:?}");
+                assert!(distance(start, second) < 1e-9, "{pair:?}");
+                assert!(distance(end, first) < 1e-9, "{pair:?}");
                 assert!(colors.windows(2).all(|two| two[0].0 < two[1].0), "shares rise");
             }
         });
@@ -460,9 +459,10 @@ mod tests {
                 let wanted = library.color(parts, palette.viewing()).unwrap();
                 assert!(distance(found.lab, wanted.lab) < 1e-6, "{share}");
             }
-            let chroma = |at: usize| line.colors[at].1.lab.to_lch().chroma;
-            let most = (0..line.colors.len()).map(chroma).fold(0.0, f64::max);
-            let ends = chroma(0).max(chroma(line.colors.len() - 1));
+            let chromas: Vec<f64> =
+                line.colors.iter().map(|(_, color)| color.lab.to_lch().chroma).collect();
+            let most = chromas.iter().copied().fold(0.0, f64::max);
+            let ends = chromas[0].max(chromas[chromas.len() - 1]);
             assert!(most > ends + 10.0, "white brings the blue out: {most} over {ends}");
         });
     }

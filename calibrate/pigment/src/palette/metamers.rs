@@ -210,19 +210,20 @@ pub fn color_shifts(
             let xyz: Vec<Xyz> =
                 lights.iter().map(|light| light.weights.xyz(&reflectance)).collect();
             let whites: Vec<Xyz> = lights.iter().map(|light| light.weights.white()).collect();
-            let under_first = |at: usize| {
+            let all = 0..lights.len();
+            let under_first = all.clone().map(|at| {
                 let xyz = if at == 0 {
                     xyz[0]
                 } else {
                     adapt(xyz[at], whites[at], whites[0], Adaptation::Bradford)
                 };
                 Lab::from_xyz(xyz, whites[0])
-            };
-            let all = 0..lights.len();
+            });
+            let labs: Vec<Lab> = under_first.collect();
             ColorShift {
                 recipe: recipe.clone(),
-                colors: all.clone().map(|at| Appearance::of(xyz[at], whites[at])).collect(),
-                shifts: all.map(|at| delta_e_ciede2000(under_first(0), under_first(at))).collect(),
+                colors: all.map(|at| Appearance::of(xyz[at], whites[at])).collect(),
+                shifts: labs.iter().map(|lab| delta_e_ciede2000(labs[0], *lab)).collect(),
             }
         })
         .collect()

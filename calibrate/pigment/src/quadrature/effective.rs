@@ -427,13 +427,13 @@ mod tests {
     #[test]
     fn any_number_of_threads_fits_the_same_bits() {
         let oils = PigmentLibrary::van_gogh_oils();
-        let fitted = |threads: usize| {
+        let [one, three] = [1, 3].map(|threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| {
                 EffectiveQuadrature::of(&viewing("D65"), &oils, 5, &Task::default()).unwrap()
             })
-        };
-        assert_eq!(fitted(1), fitted(3));
+        });
+        assert_eq!(one, three);
     }
 
     #[test]

@@ -182,13 +182,13 @@ impl Problem {
         upper.rows_mut(0, 3 * (n - 1)).fill(LARGEST_WEIGHT);
         let mut lower = -&upper;
         let nm = &self.start.rule.nodes_nm;
-        let between = |i: usize| f64::midpoint(nm[i], nm[i + 1]);
+        let between: Vec<f64> = nm.windows(2).map(|pair| f64::midpoint(pair[0], pair[1])).collect();
         for (i, &here) in nm.iter().enumerate() {
             let [low, high] = match nodes {
                 Nodes::Fixed => [here, here],
                 Nodes::Free => [
-                    if i == 0 { NODE_BAND_NM[0].min(here) } else { between(i - 1) },
-                    if i + 1 == n { NODE_BAND_NM[1].max(here) } else { between(i) },
+                    if i == 0 { NODE_BAND_NM[0].min(here) } else { between[i - 1] },
+                    if i + 1 == n { NODE_BAND_NM[1].max(here) } else { between[i] },
                 ],
             };
             (lower[3 * (n - 1) + i], upper[3 * (n - 1) + i]) = (low, high);
@@ -277,11 +277,12 @@ impl Problem {
             let more = value - at_nodes[n - 1][0];
             derivatives.extend((0..3).map(|channel| slopes.map(|slope| slope[channel] * more)));
         }
-        let along = |node: usize| {
-            let weights = found.rule.weights[node];
-            slopes.map(|slope| slope.iter().zip(weights).map(|(s, w)| s * w).sum::<f64>())
-        };
-        let along: Vec<[f64; 3]> = (0..n).map(along).collect();
+        let along: Vec<[f64; 3]> = found.rule.weights[..n]
+            .iter()
+            .map(|weights| {
+                slopes.map(|slope| slope.iter().zip(weights).map(|(s, w)| s * w).sum::<f64>())
+            })
+            .collect();
         for ([.., over_nm], along) in at_nodes.iter().zip(&along) {
             derivatives.push(along.map(|along| along * over_nm));
         }
@@ -377,13 +378,13 @@ mod tests {
         let gradient = problem.equations(&point).gradient;
         assert_eq!(gradient.len(), 13 + 24);
         for place in 0..point.len() {
-            let at = |step: f64| {
+            let step = 1e-5 * point[place].abs().max(1.0);
+            let [above, below] = [step, -step].map(|step| {
                 let mut moved = point.clone();
                 moved[place] += step;
                 problem.cost(&moved)
-            };
-            let step = 1e-5 * point[place].abs().max(1.0);
-            let quotient = (at(step) - at(-step)) / (2.0 * step);
+            });
+            let quotient = (above - below) / (2.0 * step);
             let tolerance = 1e-4 * quotient.abs().max(1.0);
             let found = gradient[place];
             assert!((found - quotient).abs() < tolerance, "{place}: {found} for {quotient}");

@@ -53,13 +53,13 @@ fn fitted(start: &Quadrature, training: &MixtureSet) -> Quadrature {
     let problem = Problem::new(start, training);
     let count = start.nodes_nm.len();
     let middle = start.nodes_nm.iter().sum::<f64>() / count as f64;
-    let scaled = |factor: f64| -> Vec<f64> {
+    let [narrow, wide] = [0.85, 1.1].map(|factor: f64| -> Vec<f64> {
         start.nodes_nm.iter().map(|nm| middle + factor * (nm - middle)).collect()
-    };
+    });
     let starts = [
         start.nodes_nm.clone(),
-        scaled(0.85),
-        scaled(1.1),
+        narrow,
+        wide,
         even_nodes(count, 410.0, 680.0),
         even_nodes(count, 425.0, 650.0),
     ];

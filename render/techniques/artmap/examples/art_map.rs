@@ -44,11 +44,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let tile = Texture::tiled(&key.tile.color);
         let whole = Texture::masked(&sample.color, &sample.mask);
         let (width, height) = sample.size();
-        let half = |right: bool| {
+        let [left, right] = [false, true].map(|right| {
             let inside = (0..width * height).map(|at| (at % width >= width / 2) == right);
             let mask = Field::from_values(width, height, inside.collect());
             Texture::masked(&sample.color, &mask)
-        };
+        });
         println!(
             "{:8} {:4.1} {:9.1} {:10.2} {:6.2} {:6.2} {:9.2} {:7.2} {:7.2} {:4.1}",
             key.name,
@@ -56,7 +56,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             whole.tone(),
             coherence(&first, &tile, map.spacing),
             co_occurrence_error(&whole, &tile),
-            co_occurrence_error(&half(false), &half(true)),
+            co_occurrence_error(&left, &right),
             contrast(&tile) / contrast(&whole),
             stroke_length(&tile.levelled(far)) / stroke_length(&whole.levelled(far)),
             wrap_ratio(&tile),

@@ -80,7 +80,6 @@ impl Texture {
     /// texture.
     fn pairs(&self, step: [isize; 2], mut with: impl FnMut(f32, f32)) {
         let (width, height) = self.size();
-        let inside = |at: (usize, usize)| self.mask.as_ref().is_none_or(|mask| mask[at]);
         for y in 0..height {
             for x in 0..width {
                 let u = x as isize + step[0];
@@ -92,7 +91,7 @@ impl Texture {
                 } else {
                     (u as usize, v as usize)
                 };
-                if inside((x, y)) && inside(other) {
+                if self.mask.as_ref().is_none_or(|mask| mask[(x, y)] && mask[other]) {
                     with(self.lightness[(x, y)], self.lightness[other]);
                 }
             }
@@ -171,19 +170,17 @@ pub fn co_occurrence_error(reference: &Texture, other: &Texture) -> f64 {
     fn level(value: f32, least: f32, per_level: f32) -> usize {
         (((value - least) * per_level).max(0.0) as usize).min(LEVELS - 1)
     }
-    let shares = |texture: &Texture, step: [isize; 2]| {
-        let mut counts = [0_u64; LEVELS * LEVELS];
-        texture.pairs(step, |a, b| {
-            counts[level(a, least, per_level) * LEVELS + level(b, least, per_level)] += 1;
-        });
-        let total = counts.iter().sum::<u64>().max(1) as f64;
-        counts.map(|count| count as f64 / total)
-    };
     STEPS
         .iter()
         .map(|&step: &[isize; 2]| {
-            let first = shares(reference, step);
-            let second = shares(other, step);
+            let [first, second] = [reference, other].map(|texture| {
+                let mut counts = [0_u64; LEVELS * LEVELS];
+                texture.pairs(step, |a, b| {
+                    counts[level(a, least, per_level) * LEVELS + level(b, least, per_level)] += 1;
+                });
+                let total = counts.iter().sum::<u64>().max(1) as f64;
+                counts.map(|count| count as f64 / total)
+            });
             first.iter().zip(second).map(|(a, b)| (a - b).abs()).sum::<f64>()
         })
         .sum::<f64>()
@@ -258,17 +255,15 @@ pub fn wrap_ratio(map: &Texture) -> f64 {
     let lightness = map.lightness();
     let mut across = (0.0, 0_u64);
     let mut inside = (0.0, 0_u64);
-    let mut note = |wraps: bool, a: f32, b: f32| {
-        let (sum, count) = if wraps { &mut across } else { &mut inside };
-        *sum += f64::from((a - b).abs());
-        *count += 1;
-    };
     for y in 0..height {
         for x in 0..width {
             let right = (x + 1) % width;
             let below = (y + 1) % height;
-            note(right == 0, lightness[(x, y)], lightness[(right, y)]);
-            note(below == 0, lightness[(x, y)], lightness[(x, below)]);
+            for (wraps, beside) in [(right == 0, (right, y)), (below == 0, (x, below))] {
+                let (sum, count) = if wraps { &mut across } else { &mut inside };
+                *sum += f64::from((lightness[(x, y)] - lightness[beside]).abs());
+                *count += 1;
+            }
         }
     }
     fn mean((sum, count): (f64, u64)) -> f64 {

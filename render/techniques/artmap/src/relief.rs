@@ -33,18 +33,19 @@ pub(crate) fn slopes(
         .flat_map_iter(|y: usize| {
             (0..width)
                 .map(move |x: usize| {
-                    let slope = |before: (usize, usize), after: (usize, usize)| {
-                        let [low, high] =
-                            [before, after].map(|at| if mask[at] { at } else { (x, y) });
+                    let ends = [
+                        [(x.saturating_sub(1), y), ((x + 1).min(width - 1), y)],
+                        [(x, y.saturating_sub(1)), (x, (y + 1).min(height - 1))],
+                    ];
+                    let slopes = ends.map(|ends| {
+                        let [low, high] = ends.map(|at| if mask[at] { at } else { (x, y) });
                         let texels = (high.0 - low.0) + (high.1 - low.1);
                         if texels == 0 {
                             return 0.0;
                         }
                         (height_mm[high] - height_mm[low]) / (texels as f32 * step)
-                    };
-                    let across = slope((x.saturating_sub(1), y), ((x + 1).min(width - 1), y));
-                    let down = slope((x, y.saturating_sub(1)), (x, (y + 1).min(height - 1)));
-                    if mask[(x, y)] { [across, down] } else { [0.0; 2] }
+                    });
+                    if mask[(x, y)] { slopes } else { [0.0; 2] }
                 })
                 .collect::<Vec<_>>()
         })

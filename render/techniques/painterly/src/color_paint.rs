@@ -304,19 +304,21 @@ mod tests {
     /// A wavy sheet with a picture on it, in the brushwork of the made-up map.
     fn painted(texture: Texture) -> PaintedPicture {
         let side = 25;
-        let at =
-            |index: usize| [index % side, index / side].map(|at| at as f32 / (side - 1) as f32);
-        let position = |index| {
-            let [u, v] = at(index);
-            [4.0 * u, 3.0 - 3.0 * v, 0.1 * (9.0 * u).sin()]
-        };
+        let texture_coordinates: Vec<[f32; 2]> = (0..side * side)
+            .map(|index: usize| {
+                [index % side, index / side].map(|at| at as f32 / (side - 1) as f32)
+            })
+            .collect();
         fn corner(x: usize, y: usize, side: usize) -> u32 {
             (x + y * side) as u32
         }
         let squares = (0..(side - 1) * (side - 1)).map(|at| (at % (side - 1), at / (side - 1)));
         let mut mesh = Mesh {
-            positions: (0..side * side).map(position).collect(),
-            texture_coordinates: (0..side * side).map(at).collect(),
+            positions: texture_coordinates
+                .iter()
+                .map(|&[u, v]| [4.0 * u, 3.0 - 3.0 * v, 0.1 * (9.0 * u).sin()])
+                .collect(),
+            texture_coordinates,
             colors: vec![[1.0; 3]; side * side],
             triangles: squares
                 .flat_map(|(x, y)| {

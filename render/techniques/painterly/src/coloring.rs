@@ -110,12 +110,12 @@ impl Coloring {
                     let texels = map.keys.iter().flat_map(|key| own.mapped(&key.tile.color));
                     let (mean, of_map) =
                         moments(&texels.map(|color| (color, 1.0)).collect::<Vec<_>>());
-                    let chroma = |axis: usize| {
+                    let [a, b] = [1, 2].map(|axis: usize| {
                         let like_model =
                             if of_map[axis] > 0.0 { of_model[axis] / of_map[axis] } else { 1.0 };
                         settings.chroma * (1.0 + settings.statistics * (like_model.min(1.0) - 1.0))
-                    };
-                    MapColors { mean, share: Vec3::new(settings.lightness, chroma(1), chroma(2)) }
+                    });
+                    MapColors { mean, share: Vec3::new(settings.lightness, a, b) }
                 })
                 .collect();
         }

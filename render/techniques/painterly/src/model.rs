@@ -92,7 +92,7 @@ fn subject(
     let lightness = (settings.light.tone == ToneSource::Color).then_some([0.0, 100.0]);
     let regions = Arc::new(regions);
     let units = 2.0 * radius(mesh) / FILLED;
-    let surface = |layer: u32| {
+    let surfaces = (0..settings.layers.count).map(|layer: u32| {
         let detail = match layer.checked_sub(1) {
             None => Detail::Everywhere,
             Some(below) => {
@@ -109,9 +109,9 @@ fn subject(
             detail,
             regions: Arc::clone(&regions),
         }
-    };
+    });
     Ok(Subject {
-        surfaces: (0..settings.layers.count).map(surface).collect(),
+        surfaces: surfaces.collect(),
         packed: Arc::clone(&packed),
         closed: mesh.closed_parts(),
         coloring: Arc::new(coloring),
@@ -416,8 +416,8 @@ mod strange_tests {
         let mut needles = square(3000, 1);
         let [seen, _] = covered(&needles, &camera(&needles));
         // Corners on a line, and three times the same corner.
-        let add = |corners| Triangle { corners, material: 0 };
-        needles.triangles.extend([add([0, 1, 2]), add([0, 1500, 3000]), add([7, 7, 7])]);
+        let added = [[0, 1, 2], [0, 1500, 3000], [7, 7, 7]];
+        needles.triangles.extend(added.map(|corners| Triangle { corners, material: 0 }));
         assert_covered(&needles, &camera(&needles), seen);
         let mut one = square(1, 1);
         one.triangles.truncate(1);
@@ -571,13 +571,13 @@ mod device_tests {
             let (depth, layers) = painter.splats(&camera, size, 0.0).unwrap();
             for (number, splats) in layers.iter().enumerate() {
                 let divide = painter.divide(number);
-                let paint = |compute: &mut Compute| {
+                let on = [&mut Compute::cpu(), &mut gpu];
+                let [own, others] = on.map(|compute: &mut Compute| {
                     let memory = ToneMemory::new(compute, divide.tones, divide.coloring).unwrap();
                     let depth = compute.upload(&depth).unwrap();
                     let seen = (&depth, splats.as_slice());
                     painted(compute, seen, &divide, &memory, &settings.overlap).unwrap()
-                };
-                let [own, others] = [paint(&mut Compute::cpu()), paint(&mut gpu)];
+                });
                 let ([cover, color, height], compared) = differences(&own, &others);
                 let what =
                     format!("{from:?} {space:?} {number}: {cover} {color} {height}, {compared}");

@@ -656,16 +656,17 @@ mod tests {
     fn another_ground_or_size_is_built_anew() {
         let library = PigmentLibrary::van_gogh_oils();
         let mut kept = None;
-        let mut built = |kind: GroundKind, size: (usize, usize), cell_mm: f64| {
+        for (kind, size, cell_mm) in [
+            (GroundKind::Linen, (12, 9), 0.2),
+            (GroundKind::Linen, (12, 9), 0.2),
+            (GroundKind::Linen, (9, 12), 0.2),
+            (GroundKind::Panel, (9, 12), 0.2),
+            (GroundKind::Panel, (9, 12), 0.3),
+        ] {
             let spec = kind.spec(1);
             let found =
                 BuiltGround::reused_or_built(&mut kept, &spec, (size, cell_mm), &library).unwrap();
             assert_eq!(found, spec.build(size.0, size.1, cell_mm, &library).unwrap());
-        };
-        for size in [(12, 9), (12, 9), (9, 12)] {
-            built(GroundKind::Linen, size, 0.2);
         }
-        built(GroundKind::Panel, (9, 12), 0.2);
-        built(GroundKind::Panel, (9, 12), 0.3);
     }
 }

@@ -196,9 +196,9 @@ pub(super) fn strongest(depth: &Field<f32>, splats: &[StrokeSplat]) -> Field<Opt
 
 /// Depth as grey: the nearest white, nothing bare.
 fn greys(depth: &Field<f32>) -> Field<[f32; 4]> {
-    let seen = || depth.values().iter().copied().filter(|depth| *depth < 1.0);
-    let near = seen().fold(1.0, f32::min);
-    let far = seen().fold(0.0, f32::max);
+    let seen = depth.values().iter().copied().filter(|depth| *depth < 1.0);
+    let near = seen.clone().fold(1.0, f32::min);
+    let far = seen.fold(0.0, f32::max);
     Field::from_values(
         depth.width(),
         depth.height(),
@@ -288,12 +288,14 @@ impl Painter {
             }
         }
         let linear = linear_from_encoded(&painted.color);
-        let colors = |channel: usize| linear.values().iter().map(move |own| own[channel] * own[3]);
+        let [red, green, blue] = [0, 1, 2].map(|channel: usize| {
+            linear.values().iter().map(|own| own[channel] * own[3]).collect::<Vec<f32>>()
+        });
         let cover = linear.values().iter().map(|own| own[3]);
         let channels: [(&str, Vec<f32>); 8] = [
-            ("R", colors(0).collect()),
-            ("G", colors(1).collect()),
-            ("B", colors(2).collect()),
+            ("R", red),
+            ("G", green),
+            ("B", blue),
             ("A", cover.collect()),
             (
                 "Z",

@@ -547,15 +547,15 @@ pub(super) fn amounts(
                         let covered = square.depths[row][column] < 1.0;
                         let at = (row, column);
                         let [over, rest] = divide.shares(gathered, covered, at);
-                        let of = |share: f32, sums: &SquareSums, surface: &Sums| {
+                        let parts =
+                            [(over, &sums[1], &gathered.before), (rest, &sums[0], &gathered.on)];
+                        let parts = parts.map(|(share, sums, surface)| {
                             let weight = surface.weight[row][column];
                             (share > 0.0 && weight > LOST)
                                 .then(|| paint.amounts(&sums[row][column], weight / share))
-                        };
-                        let before = of(over, &sums[1], &gathered.before);
-                        let on = of(rest, &sums[0], &gathered.on);
+                        });
                         let own = &mut amounts[x + column];
-                        for part in [before, on].into_iter().flatten() {
+                        for part in parts.into_iter().flatten() {
                             own.iter_mut().zip(part).for_each(|(own, mm)| *own += mm);
                         }
                     }
@@ -658,24 +658,20 @@ mod tests {
                 let at = f64::from(splat.offset[axis]) + f64::from(splat.extent[axis]) * way;
                 (at * size - 0.5).rem_euclid(size)
             });
-            let bytes = |x: f64, y: f64| {
-                let wrapped = |at: f64| at.rem_euclid(size) as usize % texels.size;
-                texels
-                    .interpolated(wrapped(x), wrapped(y), 0, 0)
-                    .map(|byte| f64::from(byte) / 256.0)
-            };
             let [x, y] = place.map(f64::floor);
             let [right, down] = [place[0] - x, place[1] - y];
-            let mix = |channel: usize| {
-                let row = |y: f64| {
-                    bytes(x, y)[channel] * (1.0 - right) + bytes(x + 1.0, y)[channel] * right
-                };
-                row(y) * (1.0 - down) + row(y + 1.0) * down
-            };
+            let [upper, lower] = [y, y + 1.0].map(|y| {
+                let [one, other] = [x, x + 1.0].map(|x| {
+                    let [x, y] = [x, y].map(|at| at.rem_euclid(size) as usize % texels.size);
+                    texels.interpolated(x, y, 0, 0).map(|byte| f64::from(byte) / 256.0)
+                });
+                [0, 3].map(|channel: usize| one[channel] * (1.0 - right) + other[channel] * right)
+            });
+            let [red, height] = [0, 1].map(|i: usize| upper[i] * (1.0 - down) + lower[i] * down);
             cover += weight;
-            let high = 0.25 + 0.75 * mix(3) / 255.0;
+            let high = 0.25 + 0.75 * height / 255.0;
             let weight = weight.powi(sharpness) * high * high;
-            sum += weight * (f64::from(tones.low[0]) + f64::from(tones.step[0]) * mix(0));
+            sum += weight * (f64::from(tones.low[0]) + f64::from(tones.step[0]) * red);
             total += weight;
         }
         (total > 0.0).then(|| [sum / total, cover])
@@ -723,18 +719,19 @@ mod tests {
     #[test]
     fn splats_behind_the_mesh_do_not_show_and_those_before_it_reach_out() {
         let (tones, coloring) = laid_out(ColorSource::Map);
-        let own = splat([16.0, 16.0], [10.0, 10.0], 0.0);
-        let at = |depth: f32| StrokeSplat { depth, ..own };
-        let cover = |mesh: f32, splats: &[StrokeSplat], overhang: f32| {
+        let own = StrokeSplat { depth: 0.5, ..splat([16.0, 16.0], [10.0, 10.0], 0.0) };
+        for (mesh, overhang, cover, what) in [
+            (0.3, 0.5, 0.0, "hidden"),
+            (0.5, 0.5, 1.0, "on the mesh"),
+            (1.0, 0.5, 1.0, "beyond the outline"),
+            (1.0, 0.0, 0.0, "no overhang is asked for"),
+            (0.8, 0.0, 1.0, "a mesh is not left bare"),
+        ] {
             let depth = Field::filled(32, 32, mesh);
             let overlap = OverlapSettings { overhang, ..overlap(4) };
-            shown(&depth, splats, (&tones, &coloring), &overlap).color[(16, 16)][3]
-        };
-        assert_eq!(cover(0.3, &[at(0.5)], 0.5), 0.0, "hidden");
-        assert_eq!(cover(0.5, &[at(0.5)], 0.5), 1.0, "on the mesh");
-        assert_eq!(cover(1.0, &[at(0.5)], 0.5), 1.0, "beyond the outline");
-        assert_eq!(cover(1.0, &[at(0.5)], 0.0), 0.0, "no overhang is asked for");
-        assert_eq!(cover(0.8, &[at(0.5)], 0.0), 1.0, "a mesh is not left bare");
+            let found = shown(&depth, &[own], (&tones, &coloring), &overlap);
+            assert_eq!(found.color[(16, 16)][3], cover, "{what}");
+        }
     }
 
     #[test]

@@ -272,13 +272,10 @@ mod flow_tests {
                 for y in top..top + WINDOW {
                     for x in left..left + WINDOW {
                         // Gradients of both frames, so that their mean counts.
-                        let slope = |a: (usize, usize), b: (usize, usize)| {
+                        let beside = [[(x - 1, y), (x + 1, y)], [(x, y - 1), (x, y + 1)]];
+                        let slope = DVec2::from(beside.map(|[a, b]| {
                             f64::from(before[b] - before[a] + after[b] - after[a]) / 4.0
-                        };
-                        let slope = DVec2::new(
-                            slope((x - 1, y), (x + 1, y)),
-                            slope((x, y - 1), (x, y + 1)),
-                        );
+                        }));
                         let change = f64::from(after[(x, y)] - before[(x, y)]);
                         squares += DMat2::from_cols(slope * slope.x, slope * slope.y);
                         wanted -= slope * change;
@@ -304,14 +301,12 @@ mod flow_tests {
             let brushwork = Brushwork::of(&map);
             let mut painter =
                 Painter::of_picture_with(&even, &brushwork, &form, &settings).unwrap();
-            let mut frame = |seconds: f64| {
+            // The map is 180 px long, a half pixel of motion.
+            let [before, after] = [10.0, 10.3].map(|seconds: f64| {
                 let color = painter.paint(&view(&even), (320, 240), seconds).unwrap().color;
                 let greens = color.values().iter().map(|pixel| pixel[1]).collect();
                 Field::from_values(320, 240, greens)
-            };
-            // The map is 180 px long, a half pixel of motion.
-            let before = frame(10.0);
-            let after = frame(10.3);
+            });
             let mut off: Vec<f64> = motions(&before, &after)
                 .into_iter()
                 .map(|motion| motion.angle_to(wanted.as_dvec2()).to_degrees().abs())
@@ -435,7 +430,7 @@ pub(super) struct LayerColors {
 
 /// The colours of all layers, the lowest first.
 pub(super) fn layer_colors(photograph: &Photograph, settings: &Settings) -> Vec<LayerColors> {
-    let layer = |number: u32| {
+    let layers = (0..settings.layers.count).map(|number: u32| {
         let own = settings.of_layer(number);
         let picture = at_strokes(photograph, own.reference_px / own.strokes.width_px * CELLS);
         let lab = lab_from_linear(&picture);
@@ -451,8 +446,8 @@ pub(super) fn layer_colors(photograph: &Photograph, settings: &Settings) -> Vec<
             Field::from_values(lab.width(), lab.height(), shown.collect())
         });
         LayerColors { picture, lab, shown }
-    };
-    (0..settings.layers.count).map(layer).collect()
+    });
+    layers.collect()
 }
 
 impl LayerColors {
@@ -696,8 +691,8 @@ mod tests {
         (settings.flow.twinkle, settings.flow.loop_seconds) = (0.3, 2.0);
         let mut painter = Painter::of_picture(&even, &map(3), &settings).unwrap();
         let camera = view(&even);
-        let mut at = |seconds: f64| painter.paint(&camera, (160, 120), seconds).unwrap().color;
-        let [first, then, last] = [0.0, 0.6, 2.0].map(&mut at);
+        let [first, then, last] = [0.0, 0.6, 2.0]
+            .map(|seconds: f64| painter.paint(&camera, (160, 120), seconds).unwrap().color);
         assert_eq!(first, last);
         let change = first.values().iter().zip(then.values()).map(|(a, b)| (a[1] - b[1]).abs());
         assert!(change.sum::<f32>() / first.values().len() as f32 > 0.02);
@@ -717,14 +712,10 @@ mod tests {
         let [front, side] =
             [0.0, 20.0].map(|right_deg| PictureView::of(picture.size()).turned(right_deg, 0.0));
         let size = (200, 120);
-        let seen = |painter: &mut Painter, camera| {
-            let (depth, _) = painter.splats(&camera, size, 0.0).unwrap();
-            depth
-        };
-        let flat = seen(&mut relief, front);
+        let (flat, _) = relief.splats(&front, size, 0.0).unwrap();
         assert!(flat.values().iter().all(|depth| *depth < 1.0), "it fills the picture");
         assert!(flat[(190, 60)] < flat[(10, 60)], "white is near");
-        let turned = seen(&mut relief, side);
+        let (turned, _) = relief.splats(&side, size, 0.0).unwrap();
         assert!(turned.values().contains(&1.0));
         // The camera of the picture sees every point of the relief at its own place.
         let painted = relief.paint(&front, size, 0.0).unwrap().color;

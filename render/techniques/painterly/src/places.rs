@@ -133,11 +133,10 @@ impl Surface {
         let arrow = Vec3::from(directions.arrows.within(corners, weights));
         let line = if line.dot(arrow) < 0.0 { -line } else { line };
         let along = line.reject_from_normalized(normal);
-        let share = |axis: usize| {
+        let share = Vec2::from([0, 1].map(|axis: usize| {
             let at = corners.map(|corner| mesh.texture_coordinates[corner as usize][axis]);
             (0..3).map(|i| at[i] * weights[i]).sum::<f32>()
-        };
-        let share = Vec2::new(share(0), share(1));
+        }));
         let bend = directions.bends[corners[0] as usize] * weights[0]
             + directions.bends[corners[1] as usize] * weights[1]
             + directions.bends[corners[2] as usize] * weights[2];
@@ -183,8 +182,9 @@ pub(super) fn interpolated(field: &Field<f32>, share: Vec2) -> f32 {
     let part = at - at.floor();
     let [x, y] = [whole.x as usize, whole.y as usize];
     let [right, below] = [(x + 1).min(field.width() - 1), (y + 1).min(field.height() - 1)];
-    let row = |y: usize| field[(x, y)] + (field[(right, y)] - field[(x, y)]) * part.x;
-    row(y) + (row(below) - row(y)) * part.y
+    let [upper, lower] =
+        [y, below].map(|y| field[(x, y)] + (field[(right, y)] - field[(x, y)]) * part.x);
+    upper + (lower - upper) * part.y
 }
 
 impl Place {

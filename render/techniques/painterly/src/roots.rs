@@ -178,10 +178,10 @@ impl Roots {
         let Some(grid) = &self.grid else { return own };
         let near =
             grid.near(feature.position).filter(|&other| alike(&self.kept[other].place, &own.place));
-        let distance =
-            |other: &usize| self.features[*other].position.distance_squared(feature.position);
-        let nearest = near.min_by(|a, b| distance(a).total_cmp(&distance(b)).then(a.cmp(b)));
-        let Some(other) = nearest else { return own };
+        let near = near
+            .map(|other| (self.features[other].position.distance_squared(feature.position), other));
+        let nearest = near.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let Some((_, other)) = nearest else { return own };
         let kept = &self.kept[other];
         let way = way((&self.features[other], &kept.place), (feature, &own.place));
         Root { start: kept.start.further(way), ..own }
@@ -294,12 +294,13 @@ impl Greys {
         let share = at - whole;
         let [x, y] = [whole.x as usize % self.size, whole.y as usize % self.size];
         let [right, below] = [(x + 1) % self.size, (y + 1) % self.size];
-        let value = |x: usize, y: usize| self.values[y * self.size + x];
         fn mix(a: f32, b: f32, share: f32) -> f32 {
             a + (b - a) * share
         }
-        let upper = mix(value(x, y), value(right, y), share.x);
-        mix(upper, mix(value(x, below), value(right, below), share.x), share.y)
+        let [upper, lower] = [y, below].map(|y| {
+            mix(self.values[y * self.size + x], self.values[y * self.size + right], share.x)
+        });
+        mix(upper, lower, share.y)
     }
 }
 
@@ -375,21 +376,17 @@ impl Matching<'_> {
             .filter_map(|&other| Some((other as usize, placed[other as usize]?)))
             .collect();
         let probes = self.probes(index, &beside, greys);
-        // A sum of squares only grows: above the least cost so far the rest does not matter.
-        let cost = |start: &Start, least: f32| -> f32 {
+        let mut best = (f32::INFINITY, own.start, false);
+        let mut offer = |start: Start, continues: bool| {
             let offset = start.at(widths_per_unit);
-            let mut sum = 0.0;
+            let mut cost = 0.0;
             for probe in &probes {
-                sum += probe.weight * (greys.at(offset + probe.place) - probe.grey).powi(2);
-                if sum >= least {
+                cost += probe.weight * (greys.at(offset + probe.place) - probe.grey).powi(2);
+                // A sum of squares only grows: the rest does not matter.
+                if cost >= best.0 {
                     break;
                 }
             }
-            sum
-        };
-        let mut best = (f32::INFINITY, own.start, false);
-        let mut offer = |start: Start, continues: bool| {
-            let cost = cost(&start, best.0);
             if cost < best.0 {
                 best = (cost, start, continues);
             }
@@ -417,8 +414,9 @@ impl Matching<'_> {
         }
         if offer(own.start, false).0 > good {
             for number in 0..OFFSETS_RANDOM {
-                let unit = |axis| self.features[index].unit(FIRST_RANDOM + 2 * number + axis);
-                let origin = Vec2::new(unit(0), unit(1));
+                let first = FIRST_RANDOM + 2 * number;
+                let origin =
+                    Vec2::from([first, first + 1].map(|drawn| self.features[index].unit(drawn)));
                 offer(Start { origin, way: Vec2::ZERO }, false);
             }
         }
@@ -433,7 +431,7 @@ impl Matching<'_> {
             beside.iter().map(|(other, start)| (*other, start.at(widths_per_unit))).collect();
         let place = &self.roots[index].place;
         let center = self.features[index].position;
-        let probe = |[a, b]: [f32; 2]| {
+        let probes = PROBES.into_iter().filter_map(|[a, b]: [f32; 2]| {
             let at = center + place.across() * (a * radii[0]) + place.along * (b * radii[1]);
             let mut sum = 0.0;
             let mut total = 0.0;
@@ -455,8 +453,8 @@ impl Matching<'_> {
                 grey: sum / total,
                 weight: own * (total / (total + 0.05)),
             })
-        };
-        PROBES.into_iter().filter_map(probe).collect()
+        });
+        probes.collect()
     }
 
     /// For each stroke the nearest others that overlap it on the same side of the surface.
@@ -464,7 +462,7 @@ impl Matching<'_> {
         let largest = self.styles.iter().map(|style| style.size).fold(0.0, f32::max);
         let reach = largest * self.radii[0].max(self.radii[1]);
         let grid = Grid::new(self.features.iter().map(|feature| feature.position), reach);
-        let near = |index: usize| {
+        let near = (0..self.features.len()).into_par_iter().map(|index: usize| {
             let own = self.features[index].position;
             let place = &self.roots[index].place;
             let radii = self.radii(index);
@@ -488,8 +486,8 @@ impl Matching<'_> {
             found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
             found.truncate(NEIGHBOURS);
             found.into_iter().map(|(_, other)| other).collect()
-        };
-        (0..self.features.len()).into_par_iter().map(near).collect()
+        });
+        near.collect()
     }
 }
 
@@ -515,9 +513,9 @@ impl Grid {
         let [i, j, k] = cube(place, self.side);
         let columns = (-1..=1).flat_map(move |x: i32| (-1..=1).map(move |y: i32| (x, y)));
         columns.flat_map(move |(x, y)| {
-            let at = |k| [i.saturating_add(x), j.saturating_add(y), k];
             // The cubes of a column follow one another.
-            let [low, high] = [at(k.saturating_sub(1)), at(k.saturating_add(1))];
+            let [low, high] = [k.saturating_sub(1), k.saturating_add(1)]
+                .map(|k| [i.saturating_add(x), j.saturating_add(y), k]);
             let first = self.order.partition_point(|(cube, _)| *cube < low);
             let column = self.order[first..].iter().take_while(move |(cube, _)| *cube <= high);
             column.map(|(_, index)| *index as usize)

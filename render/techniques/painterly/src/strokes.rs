@@ -115,8 +115,8 @@ fn splat(
     };
     let per_unit = projection.focal_px() / seen.distance;
     let at = [seen.x, seen.y];
-    let drawn = |along: Vec3| Vec2::from(projection.moved(at, seen.distance, along)) / per_unit;
-    let [across, along] = [drawn(across), drawn(place.along)];
+    let [across, along] = [across, place.along]
+        .map(|along| Vec2::from(projection.moved(at, seen.distance, along)) / per_unit);
     let [full, end] = ranks(settings);
     let rank = seen.rank * style.size * style.size;
     let present = place.detail * (1.0 - smoothstep([full, end], rank));
@@ -417,15 +417,12 @@ mod tests {
     fn a_loop_ends_where_it_began_to_the_bit() {
         let settings = settings(3);
         for frame in 0..48 {
-            let place = |frame| {
-                moved(
-                    0.8,
-                    phase(f64::from(frame) * f64::from(settings.loop_seconds) / 48.0, &settings),
-                    settings.periods,
-                )
-            };
             for loops in [1, 2, 7, 1000] {
-                assert_eq!(place(frame).to_bits(), place(frame + 48 * loops).to_bits(), "{frame}");
+                let [place, later] = [frame, frame + 48 * loops].map(|frame: i32| {
+                    let seconds = f64::from(frame) * f64::from(settings.loop_seconds) / 48.0;
+                    moved(0.8, phase(seconds, &settings), settings.periods)
+                });
+                assert_eq!(place.to_bits(), later.to_bits(), "{frame}");
             }
         }
     }
@@ -433,12 +430,10 @@ mod tests {
     #[test]
     fn strokes_of_weak_flow_go_on_over_the_end_of_a_loop() {
         for strength in [0.1, 0.4, 0.6, 0.9] {
-            let step = |from: f32, to: f32| {
-                let [from, to] = [from, to].map(|phase| moved(strength, phase, 3));
+            let [inside, over] = [[0.25, 0.5], [0.75, 0.0]].map(|phases| {
+                let [from, to] = phases.map(|phase: f32| moved(strength, phase, 3));
                 (from - to).rem_euclid(1.0)
-            };
-            let inside = step(0.25, 0.5);
-            let over = step(0.75, 0.0);
+            });
             assert!((inside - over).abs() < 1e-6, "{strength}: {inside}, {over}");
         }
     }

@@ -78,9 +78,10 @@ fn tile(tone: f32) -> Tile {
         let all = (0..FINE * FINE).map(|at| fine[(x + at % FINE, y + at / FINE)][part]);
         all.sum::<f32>() / (FINE * FINE) as f32
     }
-    let color = |index| [1.0, 0.8, 0.5].map(|share| share * mean(index, 0, &fine));
+    let colors =
+        (0..SIZE * SIZE).map(|index| [1.0, 0.8, 0.5].map(|share| share * mean(index, 0, &fine)));
     Tile {
-        color: Field::from_values(SIZE, SIZE, (0..SIZE * SIZE).map(color).collect()),
+        color: Field::from_values(SIZE, SIZE, colors.collect()),
         paint: None,
         height_mm: Some(Field::from_values(
             SIZE,
@@ -94,13 +95,14 @@ fn tile(tone: f32) -> Tile {
 /// downwards, flat, in the middle of the depth.
 pub(super) fn splat([x, y]: [f32; 2], [across, along]: [f32; 2], turn: f32) -> StrokeSplat {
     let (sin, cos) = turn.sin_cos();
-    let reach = |a: f32, b: f32| (a * a * across * across + b * b * along * along).sqrt();
+    let reach = [[cos, sin], [sin, cos]]
+        .map(|[a, b]| (a * a * across * across + b * b * along * along).sqrt());
     StrokeSplat {
         x,
         y,
         across: [cos / across, sin / across],
         along: [-sin / along, cos / along],
-        reach: [reach(cos, sin), reach(sin, cos)],
+        reach,
         depth: 0.5,
         slope: [0.0; 2],
         tolerance: 0.01,

@@ -87,9 +87,9 @@ impl Tones {
                 LaidMap { slices: first..laid.len(), size: map.size(), spacing: map.spacing as f32 }
             })
             .collect();
-        let whole = || laid.iter().flat_map(|(_, sizes)| &sizes[0].1);
-        let (mut low, mut step) = range(whole());
-        (low[3], step[3]) = usual_heights(whole().map(|value| value[3]), [low[3], step[3]]);
+        let whole = laid.iter().flat_map(|(_, sizes)| &sizes[0].1);
+        let (mut low, mut step) = range(whole.clone());
+        (low[3], step[3]) = usual_heights(whole.map(|value| value[3]), [low[3], step[3]]);
         let slices = laid
             .into_par_iter()
             .map(|(tone, sizes): (f32, Vec<(usize, Values)>)| Slice {
@@ -216,15 +216,14 @@ impl Texels {
         let left = 256_u64.wrapping_sub(right);
         let upper = 256_u64.wrapping_sub(lower);
         // Two mixes of whole numbers in lanes of 16 bits. The first is rounded to 8 bits again.
-        let mix = |a: u64, b: u64, low: u64, high: u64| {
+        fn mix(a: u64, b: u64, low: u64, high: u64) -> u64 {
             a.wrapping_mul(low).wrapping_add(b.wrapping_mul(high))
-        };
+        }
         const LANES: u64 = 0x00ff_00ff_00ff_00ff;
         const HALF: u64 = 0x0080_0080_0080_0080;
-        let row = |[a, b]: [u32; 2]| {
-            (mix(spread(a), spread(b), left, right).wrapping_add(HALF) >> 8) & LANES
-        };
-        let mixed = mix(row(above), row(below), upper, lower);
+        let [above, below] = [above, below]
+            .map(|[a, b]| (mix(spread(a), spread(b), left, right).wrapping_add(HALF) >> 8) & LANES);
+        let mixed = mix(above, below, upper, lower);
         [mixed, mixed >> 16, mixed >> 32, mixed >> 48].map(|lane| f32::from(lane as u16))
     }
 }
@@ -386,12 +385,15 @@ impl DeviceTones {
         let count: usize = tones.sizes().flatten().map(|texels| texels.packed().len()).sum();
         gpu.device().check_size("the art map", (count * size_of::<u32>()) as u64)?;
         let mut packed = Vec::with_capacity(count);
-        let mut tile = |texels: &Texels| {
-            let first = packed.len() as u32;
-            packed.extend_from_slice(texels.packed());
-            [first, texels.size as u32]
-        };
-        let tiles = tones.sizes().map(|sizes| sizes.iter().map(&mut tile).collect()).collect();
+        let mut tiles = Vec::new();
+        for sizes in tones.sizes() {
+            let mut of_tone = Vec::with_capacity(sizes.len());
+            for texels in sizes {
+                of_tone.push([packed.len() as u32, texels.size as u32]);
+                packed.extend_from_slice(texels.packed());
+            }
+            tiles.push(of_tone);
+        }
         let texels = gpu.plane(packed.len(), 1)?;
         gpu.write(&texels, &packed)?;
         let encoded = gpu.plane(coloring.encoded.len(), 1)?;

@@ -272,9 +272,9 @@ fn mean(values: impl ExactSizeIterator<Item = f32>) -> f32 {
 }
 
 fn in_strokes([darker, lighter]: &[Field<[f32; 3]>; 2]) -> f32 {
-    let pairs = || darker.values().iter().zip(lighter.values()).map(|(a, b)| b[0] - a[0]);
-    let step = mean(pairs());
-    let deviation = mean(pairs().map(|difference| (difference - step).powi(2))).sqrt();
+    let differences = darker.values().iter().zip(lighter.values()).map(|(a, b)| b[0] - a[0]);
+    let step = mean(differences.clone());
+    let deviation = mean(differences.map(|difference| (difference - step).powi(2))).sqrt();
     let [evenly, all] = IN_STROKES;
     let ratio = deviation / step.abs().max(f32::MIN_POSITIVE);
     ((ratio - evenly) / (all - evenly)).clamp(0.0, 1.0)

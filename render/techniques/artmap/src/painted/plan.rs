@@ -182,9 +182,8 @@ impl Style {
     fn check_effort(&self) -> Result<(), StyleError> {
         let (across, along) = self.margins();
         let [width, height] = [across, along].map(|margin| self.canvas.side_cells + 2 * margin);
-        let mm = |cells: usize| cells as f64 * self.canvas.cell_mm;
-        let columns = mm(width) / self.strokes.spacing_mm + 1.0;
-        let rows = mm(height) / self.strokes.advance_mm + 2.0;
+        let columns = width as f64 * self.canvas.cell_mm / self.strokes.spacing_mm + 1.0;
+        let rows = height as f64 * self.canvas.cell_mm / self.strokes.advance_mm + 2.0;
         let strokes = f64::from(self.strokes.coats) * columns * rows;
         let cells = width as f64 * height as f64;
         for (what, found, most) in
@@ -206,8 +205,7 @@ impl Style {
         let Self { strokes, brush, .. } = self;
         let across = 2.0 * brush.size_mm.max(strokes.spacing_mm);
         let along = strokes.length_mm * (1.0 + strokes.length_spread) + 2.0 * brush.size_mm;
-        let cells = |mm: f64| (mm / self.canvas.cell_mm).ceil() as usize;
-        (cells(across), cells(along))
+        [across, along].map(|mm| (mm / self.canvas.cell_mm).ceil() as usize).into()
     }
 
     /// Distance of neighbouring strokes in cells.

@@ -296,8 +296,8 @@ fn coat_strokes(
         for row in -1..rows {
             let x = (column as f64 + 0.5 + shift) * plan.spacing_mm;
             let y = (row as f64 + 0.5 + phase) * plan.advance_mm;
-            let mut jitter = |mm: f64| plan.jitter * mm * random.random_range(-0.5..=0.5);
-            let middle = [x + jitter(plan.spacing_mm), y + jitter(plan.advance_mm)];
+            let middle = [(x, plan.spacing_mm), (y, plan.advance_mm)]
+                .map(|(at, mm)| at + plan.jitter * mm * random.random_range(-0.5..=0.5));
             let [step, down] = RANK_STEPS;
             let rank = (step * column as f64 + down * (row + 1) as f64).fract();
             strokes.push(stroke(style, coat, rank, middle, random));

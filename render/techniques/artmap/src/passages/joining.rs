@@ -416,11 +416,13 @@ mod gaps_tests {
         tones: [f32; N],
         known: [Option<usize>; N],
     ) -> Vec<Option<usize>> {
-        let label = |i: usize| starts.partition_point(|&start| start <= i % 100) - 1;
-        let labels = (0..100 * 40).map(|i| label(i) as u32).collect();
-        let regions = Regions { labels: Field::from_values(100, 40, labels), count: N };
-        let intensity = (0..100 * 40).map(|i| tones[label(i)]).collect();
+        let labels: Vec<usize> = (0..100 * 40)
+            .map(|i: usize| starts.partition_point(|&start| start <= i % 100) - 1)
+            .collect();
+        let intensity = labels.iter().map(|&label| tones[label]).collect();
         let intensity = Field::from_values(100, 40, intensity);
+        let labels = labels.into_iter().map(|label| label as u32).collect();
+        let regions = Regions { labels: Field::from_values(100, 40, labels), count: N };
         let traits = traits_of(&regions, &intensity, &gradient_of(&intensity));
         filled(&regions, &traits, &known, 1.0)
     }
@@ -428,10 +430,9 @@ mod gaps_tests {
     #[test]
     fn a_small_stroke_between_two_passages_goes_to_the_like_one() {
         let known = [Some(0), None, Some(1)];
-        let found = |tone| strips([0, 48, 52], [0.5, tone, 0.9], known)[1];
-        assert_eq!(found(0.62), Some(0));
-        assert_eq!(found(0.75), Some(1));
-        assert_eq!(found(0.2), None, "unlike both");
+        for (tone, like) in [(0.62, Some(0)), (0.75, Some(1)), (0.2, None)] {
+            assert_eq!(strips([0, 48, 52], [0.5, tone, 0.9], known)[1], like, "{tone}");
+        }
         let wide = strips([0, 40, 60], [0.5, 0.62, 0.9], known)[1];
         assert_eq!(wide, None, "a large area is not a stroke");
         let beside_free = strips([0, 48, 52], [0.5, 0.62, 0.9], [Some(0), None, None])[1];

@@ -198,8 +198,8 @@ fn lloyd(bins: &[Bin], mut centers: Vec<Vector3<f64>>) -> Vec<Vector3<f64>> {
 
 /// Index of the nearest of `centers`. If several are equally near, this is the first.
 fn nearest(centers: &[Vector3<f64>], color: Vector3<f64>) -> usize {
-    let apart = |index: usize| (centers[index] - color).norm_squared();
-    (0..centers.len()).min_by(|&a, &b| apart(a).total_cmp(&apart(b))).unwrap_or(0)
+    let apart = centers.iter().map(|center| (center - color).norm_squared());
+    apart.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(index, _)| index)
 }
 
 /// Radius of the window at the finest scale. This makes it 9 pixels wide.
@@ -590,14 +590,15 @@ mod tests {
                 }
             }
         }
-        let scatter = |chosen: &dyn Fn(bool) -> bool| {
-            let of: Vec<_> = places.iter().filter(|place| chosen(place.2)).collect();
+        let sides = [&[false, true][..], &[true], &[false]];
+        let [all, right, left] = sides.map(|sides| {
+            let of: Vec<_> = places.iter().filter(|place| sides.contains(&place.2)).collect();
             let count = of.len() as f64;
             let mean = of.iter().fold((0.0, 0.0), |m, p| (m.0 + p.0 / count, m.1 + p.1 / count));
             of.iter().map(|p| (p.0 - mean.0).powi(2) + (p.1 - mean.1).powi(2)).sum::<f64>()
-        };
-        let within = scatter(&|right| right) + scatter(&|right| !right);
-        let wanted = (scatter(&|_| true) - within) / within;
+        });
+        let within = right + left;
+        let wanted = (all - within) / within;
         let found = f64::from(j_values(&halves, 1)[(20, 20)]);
         assert!((found - wanted).abs() < 1e-4, "{found}, wanted {wanted}");
         assert!(found > 0.5, "{found}");

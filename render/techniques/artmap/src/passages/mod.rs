@@ -201,12 +201,12 @@ mod tests {
     fn samples_do_not_depend_on_threads() {
         let painting = Painting::quarters();
         let picture = SourcePicture::of_colors(painting.picture(), "quarters");
-        let with = |threads: usize| {
+        let [one, three] = [1, 3].map(|threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let settings = PassageSettings::default();
             pool.install(|| samples_of_picture(&picture, &painting.marks(), &settings).unwrap())
-        };
-        assert!(with(1) == with(3));
+        });
+        assert!(one == three);
     }
 
     #[test]
@@ -261,11 +261,13 @@ mod tests {
     fn specks_have_no_spacing_unless_marked() {
         let specks = Texture { brush: Brush::Specks, ..Texture::default() };
         let picture = SourcePicture::of_colors(textured(100, 80, 2, &[specks], |_, _| 0), "specks");
-        let whole = |spacing| marks(vec![rectangle("a", [0, 0, 100, 80], spacing)]);
-        let settings = PassageSettings::default();
-        let error = samples_of_picture(&picture, &whole(None), &settings).unwrap_err();
+        let [unmarked, marked] = [None, Some(10.0)].map(|spacing| {
+            let marks = marks(vec![rectangle("a", [0, 0, 100, 80], spacing)]);
+            samples_of_picture(&picture, &marks, &PassageSettings::default())
+        });
+        let error = unmarked.unwrap_err();
         assert!(matches!(error, PassageError::NoSpacing { .. }), "{error}");
-        assert!(samples_of_picture(&picture, &whole(Some(10.0)), &settings).is_ok());
+        assert!(marked.is_ok());
     }
 
     #[test]

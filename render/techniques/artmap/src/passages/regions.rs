@@ -60,20 +60,14 @@ impl Regions {
         let width = self.labels.width();
         let height = self.labels.height();
         let mut neighbours = vec![BTreeSet::new(); self.count];
-        let mut meet = |one: u32, other: u32| {
-            if one != other {
-                neighbours[one as usize].insert(other);
-                neighbours[other as usize].insert(one);
-            }
-        };
         for y in 0..height {
             for x in 0..width {
                 let own = self.labels[(x, y)];
-                if x + 1 < width {
-                    meet(own, self.labels[(x + 1, y)]);
-                }
-                if y + 1 < height {
-                    meet(own, self.labels[(x, y + 1)]);
+                let right = (x + 1 < width).then(|| self.labels[(x + 1, y)]);
+                let below = (y + 1 < height).then(|| self.labels[(x, y + 1)]);
+                for other in [right, below].into_iter().flatten().filter(|&other| other != own) {
+                    neighbours[own as usize].insert(other);
+                    neighbours[other as usize].insert(own);
                 }
             }
         }

@@ -323,16 +323,15 @@ fn scribble(regions: &Regions, label: usize, pixels: &[u32], depths: &Field<u32>
             regions.labels[at] as usize == label && depths[at] >= least
         }
     };
-    let walked = |[dx, dy]: [f64; 2]| {
-        let at = |step: f64| [middle[0] + step * dx, middle[1] + step * dy];
-        let steps = (0..).map(f64::from).take_while(|&step| inside(at(step)));
-        let end = at(steps.last().unwrap_or(0.0));
-        end.map(f64::round)
-    };
     let lines = (0..DIRECTIONS).map(|number| {
         let angle = std::f64::consts::PI * number as f64 / DIRECTIONS as f64;
         let (sin, cos) = angle.sin_cos();
-        [walked([-cos, -sin]), walked([cos, sin])]
+        [[-cos, -sin], [cos, sin]].map(|[dx, dy]| {
+            let steps = (0..).map(f64::from);
+            let places = steps.map(|step| [middle[0] + step * dx, middle[1] + step * dy]);
+            let end = places.take_while(|&place| inside(place)).last().unwrap_or(middle);
+            end.map(f64::round)
+        })
     });
     fn length([from, to]: &[[f64; 2]; 2]) -> f64 {
         (to[0] - from[0]).hypot(to[1] - from[1])

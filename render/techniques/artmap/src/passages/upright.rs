@@ -73,12 +73,12 @@ fn channel<T: Default>(texels: &Field<Option<Texel>>, of: impl Fn(&Texel) -> T) 
 fn cut_to_extent(texels: Field<Option<Texel>>) -> Field<Option<Texel>> {
     let width = texels.width();
     let height = texels.height();
-    let full_column = |x: &usize| (0..height).any(|y| texels[(*x, y)].is_some());
-    let full_row = |y: &usize| texels.row(*y, 0, width).iter().any(Option::is_some);
-    let columns = (0..width).find(full_column).zip((0..width).rev().find(full_column));
-    let rows = (0..height).find(full_row).zip((0..height).rev().find(full_row));
-    match (columns, rows) {
-        (Some((left, right)), Some((top, bottom))) => {
+    let columns: Vec<usize> =
+        (0..width).filter(|&x| (0..height).any(|y| texels[(x, y)].is_some())).collect();
+    let rows: Vec<usize> =
+        (0..height).filter(|&y| texels.row(y, 0, width).iter().any(Option::is_some)).collect();
+    match (columns.first().zip(columns.last()), rows.first().zip(rows.last())) {
+        (Some((&left, &right)), Some((&top, &bottom))) => {
             texels.part(Rect { x: left, y: top, width: right - left + 1, height: bottom - top + 1 })
         }
         // Passages of single pixels in a row may be lost where we make a sample smaller.
@@ -199,15 +199,16 @@ impl Frame {
         // Half widths of the tent in pixels along its axes.
         let half = self.scale.map(|scale| (1.0 / scale).max(1.0));
         let reach = [0, 1].map(|i| half[0] * self.across[i].abs() + half[1] * self.along[i].abs());
-        let range =
-            |i: usize| (middle[i] - reach[i]).ceil() as i64..=(middle[i] + reach[i]).floor() as i64;
+        let [columns, rows] = [0, 1]
+            .map(|i| (middle[i] - reach[i]).ceil() as i64..=(middle[i] + reach[i]).floor() as i64);
         let mut inside = 0.0;
         let mut all = 0.0;
-        for y in range(1) {
-            for x in range(0) {
+        for y in rows {
+            for x in columns.clone() {
                 let off = [x as f64 - middle[0], y as f64 - middle[1]];
-                let tent = |direction, half: f64| (1.0 - dot(off, direction).abs() / half).max(0.0);
-                let weight = tent(self.across, half[0]) * tent(self.along, half[1]);
+                let [across, along] = [(self.across, half[0]), (self.along, half[1])]
+                    .map(|(direction, half)| (1.0 - dot(off, direction).abs() / half).max(0.0));
+                let weight = across * along;
                 // Below this, pixels beyond the tent would count by rounding alone.
                 if weight < 1e-9 {
                     continue;
@@ -362,11 +363,9 @@ mod tests {
             let y = (i / 60) as f64 - 25.0;
             x.hypot(y) < 20.0
         }
-        let field = |value: &dyn Fn(bool) -> f32| -> Field<f32> {
-            Field::from_values(60, 50, (0..3000).map(|i| value(inside(i))).collect())
-        };
         let mask = Field::from_values(60, 50, (0..3000).map(inside).collect());
-        let height = field(&|inside| if inside { 0.4 } else { 9.0 });
+        let height = (0..3000).map(|i| if inside(i) { 0.4 } else { 9.0_f32 }).collect();
+        let height = Field::from_values(60, 50, height);
         let color = height.values().iter().map(|&h| [h, 0.5 * h, 0.1]).collect();
         let paint = height.values().iter().map(|&h| TexelPaint {
             pigments_mm: [h, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0 * h],

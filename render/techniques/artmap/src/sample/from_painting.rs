@@ -118,25 +118,26 @@ fn table(
         return Ok((ids(used), Vec::new()));
     }
     let library = &document.library;
-    let names = |ids: Vec<PigmentId>| ids.iter().map(|&id| library[id].name.clone()).collect();
     let (minor, kept): (Vec<_>, Vec<_>) = used.iter().partition(|(_, share)| *share < MINOR);
     if !merge_minor || kept.len() > SLOTS {
         return Err(FromPaintingError::TooManyPigments {
             title: document.title.clone(),
-            names: names(ids(used)),
+            names: used.iter().map(|&(id, _)| library[id].name.clone()).collect(),
             minor: if kept.len() > SLOTS { 0 } else { minor.len() },
         });
     }
     let colors = masstones(library);
-    let nearest = |id: PigmentId| {
-        fn distance(other: PigmentId, colors: &[Lab], id: &PigmentId) -> f64 {
-            delta_e_ciede2000(colors[id.index()], colors[other.index()])
-        }
-        let kept = ids(&kept).into_iter();
-        kept.min_by(|a, b| distance(*a, &colors, &id).total_cmp(&distance(*b, &colors, &id)))
-    };
-    let merged = ids(&minor).into_iter().filter_map(|id| Some((id, nearest(id)?))).collect();
-    Ok((ids(&kept), merged))
+    let kept = ids(&kept);
+    let merged = ids(&minor).into_iter().filter_map(|id| {
+        let nearest = kept.iter().min_by(|a, b| {
+            let [of_a, of_b] =
+                [a, b].map(|other| delta_e_ciede2000(colors[id.index()], colors[other.index()]));
+            of_a.total_cmp(&of_b)
+        });
+        Some((id, *nearest?))
+    });
+    let merged = merged.collect();
+    Ok((kept, merged))
 }
 
 fn masstones(library: &PigmentLibrary) -> Vec<Lab> {
@@ -310,16 +311,16 @@ mod tests {
         let whole = WholePainting::of(&document, false).unwrap();
         let exact = paint::scene::SpectralDocument::full(&document);
         let weights = Viewing::default().weights(document.library.grid).unwrap();
-        let lab = |xyz| Lab::from_xyz(xyz, weights.white());
         for (x, y) in [(2, 2), (40, 20), (60, 24), (50, 14), (66, 15), (70, 30)] {
-            let wanted = lab(weights.xyz(&exact.measured_reflectance(x, y)));
+            let wanted = weights.xyz(&exact.measured_reflectance(x, y));
             let rgb = spectra::color::Rgb(whole.color[(x, y)].map(f64::from)).encoded();
             let xyz = RgbSpace::Srgb.xyz_from_encoded(
                 rgb,
                 weights.white(),
                 spectra::color::Adaptation::Bradford,
             );
-            let off = delta_e_ciede2000(wanted, lab(xyz));
+            let [wanted, found] = [wanted, xyz].map(|xyz| Lab::from_xyz(xyz, weights.white()));
+            let off = delta_e_ciede2000(wanted, found);
             assert!(off < 0.5, "{x}, {y}: {off}");
         }
     }

@@ -196,10 +196,11 @@ fn guessed(sample: &Sample, relief_mm: f64) -> Field<f32> {
     let fine = lightness(sample, GRAIN * sample.spacing);
     let level = lightness(sample, LEVEL * sample.spacing);
     let detail: Vec<f32> = fine.iter().zip(&level).map(|(fine, level)| fine - level).collect();
-    let inside = || detail.iter().zip(sample.mask.values()).filter(|(_, inside)| **inside);
-    let count = inside().count().max(1) as f64;
-    let mean = inside().map(|(detail, _)| f64::from(*detail)).sum::<f64>() / count;
-    let squares = inside().map(|(detail, _)| (f64::from(*detail) - mean).powi(2));
+    let inside = detail.iter().zip(sample.mask.values()).filter(|(_, inside)| **inside);
+    let inside: Vec<f64> = inside.map(|(detail, _)| f64::from(*detail)).collect();
+    let count = inside.len().max(1) as f64;
+    let mean = inside.iter().sum::<f64>() / count;
+    let squares = inside.iter().map(|detail| (detail - mean).powi(2));
     let deviation = (squares.sum::<f64>() / count).sqrt();
     let heights = detail
         .iter()

@@ -291,12 +291,12 @@ impl Usage {
     }
 
     pub(crate) fn note(&mut self, place: [u16; 2]) {
-        let blocks = |first: u16| {
+        let [columns, rows] = place.map(|first| {
             let first = usize::from(first);
             first / self.block..=(first + self.patch - 1) / self.block
-        };
-        for y in blocks(place[1]) {
-            for x in blocks(place[0]) {
+        });
+        for y in rows {
+            for x in columns.clone() {
                 self.counts[(x, y)] += 1;
             }
         }

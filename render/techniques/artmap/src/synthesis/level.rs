@@ -123,10 +123,11 @@ impl Channels {
 
     /// Mean and deviation of a channel over the mask. `value` gives its values.
     fn moments(&self, value: impl Fn(usize) -> f32) -> (f64, f64) {
-        let inside = || (0..self.mask.values().len()).filter(|&index| self.mask.values()[index]);
-        let count = inside().count().max(1) as f64;
-        let mean = inside().map(|index| f64::from(value(index))).sum::<f64>() / count;
-        let squares = inside().map(|index| (f64::from(value(index)) - mean).powi(2));
+        let inside = (0..self.mask.values().len()).filter(|&index| self.mask.values()[index]);
+        let inside: Vec<f64> = inside.map(|index| f64::from(value(index))).collect();
+        let count = inside.len().max(1) as f64;
+        let mean = inside.iter().sum::<f64>() / count;
+        let squares = inside.iter().map(|value| (value - mean).powi(2));
         (mean, (squares.sum::<f64>() / count).sqrt())
     }
 }
@@ -155,13 +156,14 @@ impl Level {
             };
             (mean as f32, if used { (1.0 / deviation) as f32 } else { 0.0 })
         });
-        let deviation = |channel: usize| channels.moments(|i| values.values()[i][channel]).1;
-        let color = (deviation(0).powi(2) + deviation(1).powi(2) + deviation(2).powi(2)).sqrt();
+        let [l, a, b, height_deviation] =
+            [0, 1, 2, 3].map(|channel: usize| channels.moments(|i| values.values()[i][channel]).1);
+        let color = (l.powi(2) + a.powi(2) + b.powi(2)).sqrt();
         fn per(deviation: f64) -> f32 {
             if deviation > 0.0 { (1.0 / deviation) as f32 } else { 0.0 }
         }
         let per_color = per(color);
-        let per_height = HEIGHT * per(deviation(3));
+        let per_height = HEIGHT * per(height_deviation);
         let mean_edge = channels.moments(|index| edges[index]).0 as f32;
         let looks = values
             .values()

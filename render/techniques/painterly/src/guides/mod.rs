@@ -103,8 +103,7 @@ fn check_line(points: &[[f64; 2]], size_px: [u32; 2]) -> Result<(), GuideFault> 
         if let Some(&value) = at.iter().find(|value| !value.is_finite()) {
             return Err(GuideFault::NotFinite { point, value });
         }
-        let inside = |place: f64, side: u32| (0.0..f64::from(side)).contains(&place);
-        if !inside(at[0], size_px[0]) || !inside(at[1], size_px[1]) {
+        if !at.iter().zip(size_px).all(|(place, side)| (0.0..f64::from(side)).contains(place)) {
             return Err(GuideFault::OffPicture { point, at, size_px });
         }
     }
@@ -322,10 +321,8 @@ impl Guides {
     pub fn from_toml(file: &str, text: &str) -> Result<Self, GuidesError> {
         let whole: FileOfGuides = Source::toml_with_hint(file, text, KEYS)?.typed()?;
         let FileOfGuides { picture, size_px, camera, guide: entries } = whole;
-        let points = |entry: &EntryOfGuide| {
-            entry.points.get_ref().iter().map(|point| point.get_ref().0).collect()
-        };
-        let lines = entries.iter().map(points).collect();
+        let points = entries.iter().map(|entry: &EntryOfGuide| entry.points.get_ref().iter());
+        let lines = points.map(|points| points.map(|point| point.get_ref().0).collect()).collect();
         let size_px = size_px.0;
         let camera = camera.map(|camera| camera.0);
         let guides = Self { file: file.to_owned(), picture, size_px, camera, lines };

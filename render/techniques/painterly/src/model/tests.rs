@@ -115,25 +115,28 @@ pub(super) fn popping_of(
     let frames = (360.0 / degrees).round() as usize;
     let cameras = framing.fit_turntable(&mesh.positions, frames);
     let [mut moved, mut still] = [Popping::default(); 2];
-    let mut frame = |number: usize| {
-        let camera = &cameras[number];
-        let visible = model.visible(&mut compute, camera, TURNED.0, TURNED.1).unwrap();
-        let lab = lab_from_linear(&linear(&picture(camera, number)));
-        let values = lab.values().iter().map(|lab| lab[0]).collect();
-        let lightness = Field::from_values(TURNED.0, TURNED.1, values);
-        (Projection::new(camera, TURNED.0, TURNED.1), depth_field(visible.host()), lightness)
-    };
     for step in 0..steps {
         let first = step * frames / steps;
-        let [before, mut after] = [first, (first + 1) % frames].map(&mut frame);
+        let [before, mut after] = [first, (first + 1) % frames].map(|number: usize| {
+            let camera = &cameras[number];
+            let visible = model.visible(&mut compute, camera, TURNED.0, TURNED.1).unwrap();
+            let lab = lab_from_linear(&linear(&picture(camera, number)));
+            let values = lab.values().iter().map(|lab| lab[0]).collect();
+            let lightness = Field::from_values(TURNED.0, TURNED.1, values);
+            (Projection::new(camera, TURNED.0, TURNED.1), depth_field(visible.host()), lightness)
+        });
         // Where the picture that stands still shows no model it cannot be compared.
         let pairs = after.1.values_mut().iter_mut().zip(before.1.values());
         pairs.filter(|(_, before)| **before == 1.0).for_each(|(after, _)| *after = 1.0);
         let last = NoiseFrame { projection: &before.0, depth: &before.1, noise: &before.2 };
-        let next = |noise| NoiseFrame { projection: &after.0, depth: &after.1, noise };
-        moved = moved.merge(Popping::between(last, next(&after.2)));
+        let [next, stays] = [&after.2, &before.2].map(|noise| NoiseFrame {
+            projection: &after.0,
+            depth: &after.1,
+            noise,
+        });
+        moved = moved.merge(Popping::between(last, next));
         // The picture stays where it is on the screen while the model turns.
-        still = still.merge(Popping::between(last, next(&before.2)));
+        still = still.merge(Popping::between(last, stays));
     }
     moved.rms() / still.rms()
 }
@@ -278,11 +281,10 @@ fn a_loop_of_flow_closes_to_the_bit_and_goes_on_evenly() {
     settings.strokes.width_px = 10.0;
     (settings.flow.periods, settings.flow.loop_seconds) = (1, 2.0);
     let mut painter = Painter::of_model(&mesh, &map(2), &settings).unwrap();
-    let mut frame = |number: i32| {
+    let frames = [0, 1, 47, 48].map(|number: i32| {
         let seconds = f64::from(number) * 2.0 / 48.0;
         painter.paint(&camera, (200, 200), seconds).unwrap().color
-    };
-    let frames = [0, 1, 47, 48].map(&mut frame);
+    });
     assert_eq!(frames[0], frames[3]);
     fn change(a: &Field<[f32; 4]>, b: &Field<[f32; 4]>) -> f64 {
         let pairs = a.values().iter().zip(b.values());
@@ -372,7 +374,7 @@ fn outlines_are_dark_lines_of_even_width_that_come_in_smoothly() {
     let mut settings = Settings::default();
     // The map's lightest tone everywhere but on lines.
     (settings.light.darkest, settings.light.lightest) = (1.0, 1.0);
-    let mut dark = |width_px: f32| {
+    let [(none, _), (thin, inside), (wide, _)] = [0.0, 10.0, 20.0].map(|width_px: f32| {
         settings.silhouette.width_px = width_px;
         let mut painter = Painter::of_model(&mesh, &map(2), &settings).unwrap();
         let picture = painter.paint(&camera, (500, 500), 0.0).unwrap().color;
@@ -382,8 +384,7 @@ fn outlines_are_dark_lines_of_even_width_that_come_in_smoothly() {
         let middle = picture.part(Rect { x: 150, y: 150, width: 200, height: 200 });
         let inside = middle.values().iter().filter(|pixel| is_dark(pixel)).count();
         (picture.values().iter().filter(|pixel| is_dark(pixel)).count() - inside, inside)
-    };
-    let [(none, _), (thin, inside), (wide, _)] = [0.0, 10.0, 20.0].map(&mut dark);
+    });
     // The outline has a circumference of 1445 px. Lines are 5 and 10 px wide in this picture.
     let [thin, wide] = [thin, wide].map(|count| (count - none) as f32 / 1445.0);
     assert!((3.0..8.0).contains(&thin), "{thin} px for 5");

@@ -153,7 +153,8 @@ fn styles(
         twinkles: twinkles(flow.twinkle_seconds),
         tones: [settings.light.darkest, settings.light.lightest],
     };
-    let style = |region: &Region| {
+    let mut styles = vec![rest];
+    for region in &regions.list {
         let map = match &region.map {
             None => 0,
             Some(name) => maps.iter().position(|map| map == name).ok_or_else(|| {
@@ -162,24 +163,25 @@ fn styles(
                 RegionsError::region(&regions.name, &region.name, fault, &hint)
             })?,
         };
-        Ok(Style {
+        styles.push(Style {
             map,
             size: region.size,
             periods: region.flow.unwrap_or(rest.periods),
             twinkle: region.twinkle.unwrap_or(rest.twinkle),
             twinkles: region.twinkle_seconds.map_or(rest.twinkles, twinkles),
             tones: region.tones.unwrap_or(rest.tones),
-        })
-    };
-    std::iter::once(Ok(rest)).chain(regions.list.iter().map(style)).collect()
+        });
+    }
+    Ok(styles)
 }
 
 /// The pixel at a place, 0 to 1 over the width and height.
 fn pixel<T>(field: &Field<T>, share: Vec2) -> (usize, usize) {
-    let at = |share: f32, count: usize| {
-        ((share.max(0.0) * count as f32) as usize).min(count.saturating_sub(1))
-    };
-    (at(share.x, field.width()), at(share.y, field.height()))
+    [(share.x, field.width()), (share.y, field.height())]
+        .map(|(share, count)| {
+            ((share.max(0.0) * count as f32) as usize).min(count.saturating_sub(1))
+        })
+        .into()
 }
 
 /// Whether a point lies in a polygon. We use the even-odd rule.
@@ -207,12 +209,13 @@ mod tests {
 
     #[test]
     fn later_regions_lie_over_earlier_ones() {
-        let square = |from: f32, to: f32| {
-            RegionArea::Polygon(vec![[from, from], [to, from], [to, to], [from, to]])
-        };
-        let list = vec![Region::new("a", square(10.0, 60.0)), Region::new("b", square(40.0, 90.0))];
-        let map = RegionMap::of_picture(&regions(list), [100, 100], &["m"], &Settings::default())
-            .unwrap();
+        let list = [("a", 10.0, 60.0), ("b", 40.0, 90.0)].map(|(name, from, to)| {
+            let square = vec![[from, from], [to, from], [to, to], [from, to]];
+            Region::new(name, RegionArea::Polygon(square))
+        });
+        let regions = regions(list.into());
+        let map =
+            RegionMap::of_picture(&regions, [100, 100], &["m"], &Settings::default()).unwrap();
         let at = |x: f32, y: f32| map.at(0, Vec2::new(x, y));
         assert_eq!([at(0.05, 0.5), at(0.2, 0.2), at(0.5, 0.5), at(0.8, 0.8)], [0, 1, 2, 2]);
         assert_eq!(at(1.0, 1.0), 0);

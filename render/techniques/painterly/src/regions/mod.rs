@@ -360,13 +360,12 @@ mod tests {
     #[test]
     fn labels_must_hold_the_colours_of_their_regions() {
         let labels = Field::from_values(2, 1, vec![[16, 32, 48], [0; 3]]);
-        let regions = |color| Regions {
-            list: vec![Region::new("a", RegionArea::Label(color))],
-            labels: Some(labels.clone()),
-            ..Regions::default()
-        };
-        assert!(regions([16, 32, 48]).checked().is_ok());
-        let error = regions([16, 32, 49]).checked().unwrap_err().to_string();
+        let [held, missing] = [[16, 32, 48], [16, 32, 49]].map(|color| {
+            let list = vec![Region::new("a", RegionArea::Label(color))];
+            Regions { list, labels: Some(labels.clone()), ..Regions::default() }.checked()
+        });
+        assert!(held.is_ok());
+        let error = missing.unwrap_err().to_string();
         assert!(error.contains("no pixel of #102031"), "{error}");
     }
 }
