@@ -440,7 +440,7 @@ pub(super) fn bounded_step(
     step
 }
 
-/// Slope of the model over unknown `i`, after a step.
+/// Slope of the model with respect to unknown `i`, after a step.
 fn slope_at(
     matrix: &[[f64; UNKNOWNS]; UNKNOWNS],
     gradient: &[f64; UNKNOWNS],
