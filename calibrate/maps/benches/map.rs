@@ -1,7 +1,7 @@
 //! Pixels mapped on one core: `cargo bench -p impasto-maps --bench map`.
 //!
-//! Simulated pixels of 8 of 18 oils, noise 0.003, K and S off by 10 %: mapped with this error, and
-//! with the errors of left-out mixtures.
+//! The pixels are simulated with 8 of 18 oils, noise 0.003, and K and S off by 10 %. We map them with
+//! this error as the stated one, and with the errors of left-out mixtures.
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
@@ -24,7 +24,7 @@ struct Scan {
     spectra: Vec<f32>,
 }
 
-/// Pixels of the 31 bands of the library, or of 204 bands of 1.5 nm.
+/// Simulates a scan in the 31 bands of the library, or in `bands` even bands from 400 to 700 nm.
 fn scan(bands: usize, model_error: Option<ModelError>) -> Scan {
     let oils = PigmentLibrary::van_gogh_oils();
     let plan = PaintingPlan { pixels: PIXELS, ..PaintingPlan::default() };
@@ -54,7 +54,7 @@ fn book(scan: &Scan) -> Book {
     scan.mapper.survey(&scan.spectra, &Task::default()).expect("a book")
 }
 
-/// The error of K and S that we state.
+/// Stated error of K and S: 10 %, as in the simulated pixels.
 const STATED: Option<ModelError> = Some(ModelError::Stated(0.1));
 
 #[divan::bench(args = [31, 204], sample_count = 5)]

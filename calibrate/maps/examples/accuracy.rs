@@ -4,8 +4,9 @@
 //!
 //! 1. the measured binary mixtures of the Van Gogh oils, each unmixed as one pixel with a library that was
 //!    fitted without it, beside linear methods in common use,
-//! 2. simulated paintings of 8 of 18 pigments (a palette without black, then any), 60 recipes of one to
-//!    three of 10 % and more, with noise 0.003 and real K and S that are off by smooth 10 %; and of pigments fitted on one half of the readings,
+//! 2. simulated paintings of 8 of 18 pigments (a palette without black, then any), with noise 0.003 and
+//!    real K and S that are off by smooth errors of 10 %. They have 60 recipes of one to three pigments
+//!    with shares of at least 10 %. Also paintings with pigments fitted on one half of the readings,
 //!    mapped with a library fitted on the other half,
 //! 3. the probabilities and standard deviations of the maps,
 //! 4. the same paintings if you know the palette, or K and S, or both, and how much the spectra speak
@@ -27,9 +28,9 @@ use maps::{MapSettings, Mapper, ModelError, USUAL_MODEL_ERROR};
 use pigment::PigmentLibrary;
 
 const SEEDS: std::ops::Range<u64> = 1001..1021;
-/// Noise of a sensor that hardly has any.
+/// Noise of an almost noiseless sensor, in reflectance.
 const QUIET: f64 = 0.0005;
-/// A difference of chi-square of this size decides between two sets.
+/// From this difference of chi-square on, a spectrum decides between two sets.
 const DECISIVE: f64 = 4.0;
 const RANGES: [f64; 6] = [0.0, 0.1, 0.3, 0.5, 0.7, 0.9];
 
@@ -102,7 +103,7 @@ fn swatches(prepared: &calibrate::PreparedFit) -> Result<(), Box<dyn std::error:
     }
     let choice = choose_penalty(&of_penalty, 5);
     row(&format!("penalty chosen on other folds {:?}", choice.penalties), &choice.trials);
-    told(&choice.trials.groups);
+    print_reliability(&choice.trials.groups);
     Ok(())
 }
 
@@ -125,14 +126,14 @@ fn paintings(
     println!("  whole search      {}", Scores::of(&trials.searched));
     println!("  survey and map    {}", Scores::of(&trials.mapped));
     println!("  search worse than the refined truth in {:.1} %", 100.0 * trials.worse());
-    told(&trials.searched);
+    print_reliability(&trials.searched);
     println!("  after a survey:");
-    told(&trials.mapped);
+    print_reliability(&trials.mapped);
     Ok(())
 }
 
 /// Prints how well we map the same paintings if we know the palette, or K and S, exactly. It also
-/// prints by how much chi-square favours the true pigments where the map found wrong ones.
+/// counts the dark pixels with a wrong set where chi-square clearly favours the true one.
 fn limits(
     oils: &PigmentLibrary,
     plan: &PaintingPlan,
@@ -165,8 +166,8 @@ fn limits(
     Ok(())
 }
 
-/// Prints how far you can trust probabilities and deviations.
-fn told(trials: &[Trial]) {
+/// Prints how well the probabilities and standard deviations of `trials` agree with the truth.
+fn print_reliability(trials: &[Trial]) {
     for range in reliability(trials, &RANGES) {
         println!(
             "    presence told {:.2}, true {:.2}, {} times",

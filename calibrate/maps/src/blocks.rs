@@ -21,13 +21,13 @@ const MOST_PIXELS: usize = 256 * 2048;
 /// Result of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MapOutcome {
-    /// Pixels that this run mapped, by mask.
+    /// Number of pixels by mask in the shards that this run wrote.
     pub pixels: PixelCounts,
     /// Number of shards that were finished before this run.
     pub kept: usize,
     /// Number of shards that this run wrote.
     pub written: usize,
-    /// Whether you ended the run early.
+    /// Whether the run was cancelled.
     pub cancelled: bool,
 }
 
@@ -49,7 +49,7 @@ pub enum RunError<E: Error + 'static> {
 /// at a time, and it may use all threads. Its result must depend on each pixel alone, so that the
 /// bytes of the store do not depend on the blocks.
 ///
-/// `task` counts the pixels that are done after each block, with those of finished shards. If it is
+/// After each block, `task` counts the pixels that are done, including finished shards. If it is
 /// cancelled, the run ends after the block under way, and the shard under way is not written.
 ///
 /// # Errors
@@ -102,7 +102,8 @@ pub fn map_shard<E: Error + 'static>(
     map_shard_of(cube, store, shard, &map, (0, pixels(shard)), task)
 }
 
-/// Maps a shard like [`map_shard`], as a part of `all` pixels of which those `before` it are done.
+/// Maps a shard as [`map_shard`] does. The run has `all` pixels, of which `before` are already done
+/// when the shard begins. `task` counts on from there.
 fn map_shard_of<E: Error + 'static>(
     cube: &Cube,
     store: &MapStore,
@@ -152,8 +153,9 @@ impl SurveyedScan {
         map_cube(self.cube(), store, |block| self.map_block(block), task)
     }
 
-    /// Maps the shard at `place` in the order of the store, unless it is finished. `None` if it was, or if
-    /// `task`, which counts the pixels of the shard that are done, was cancelled.
+    /// Maps the shard with the index `place` in the store, unless it is finished. `task` counts the
+    /// pixels of the shard that are done. You get `None` if the store has no such shard, it was
+    /// finished before, or `task` was cancelled.
     ///
     /// # Errors
     /// [`RunError`] if the scan cannot be read or the shard not be written.

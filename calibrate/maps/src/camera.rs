@@ -206,7 +206,8 @@ pub(crate) const RANGE_NM: [f64; 2] = [400.0, 1000.0];
 /// Settings of a simulated camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CameraSettings {
-    /// Number of bands, 2 to 2000, evenly spaced from 400 to 1000 nm or over what the scene has of it.
+    /// Number of bands, 2 to 2000. They lie evenly from 400 to 1000 nm, or over the part of this
+    /// range that the scene covers.
     pub bands: usize,
     /// Standard deviation of the blur in pixels, 0 to 20.
     pub blur_px: f64,
@@ -257,7 +258,7 @@ impl CameraSettings {
     }
 }
 
-/// The camera cannot take a scene or settings.
+/// The scene or the settings do not suit the camera.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum CameraError {
     /// A setting is out of its range.
@@ -294,10 +295,10 @@ pub enum CameraError {
     },
 }
 
-/// The reflection changes over this distance in pixels.
+/// Distance in pixels between independent values of k1. In between, k1 changes smoothly.
 const PATCH_PX: usize = 16;
-/// The surface uses streams of random numbers from here on. The noise of each line has its own
-/// stream below.
+/// Number of the first random stream for the surface. Each line has a stream for its noise below
+/// this number.
 const STREAMS: u64 = 1 << 63;
 /// Greatest k1 of a varied surface.
 const MOST_K1: f64 = 0.9;
@@ -314,8 +315,8 @@ pub struct SurfaceVariation {
 }
 
 impl SurfaceVariation {
-    /// The factors on k1 in a line. They have the mean 1 and the standard deviation `relative` at
-    /// every place, and are alike within some 16 pixels.
+    /// Factors on k1 in a line. At every place they have the mean 1 and the standard deviation
+    /// `relative`. Within about 16 pixels they are similar.
     #[must_use]
     pub fn factors(&self, line: usize, samples: usize) -> Vec<f64> {
         let corners = samples / PATCH_PX + 2;
@@ -361,7 +362,7 @@ fn smooth(at: usize) -> f64 {
     x * x * (3.0 - 2.0 * x)
 }
 
-/// Half the width of the blur in standard deviations.
+/// The blur ends at this distance from its centre, in standard deviations.
 const REACH: f64 = 3.5;
 
 /// A Gaussian blur. Beyond the edges we mirror the picture, so that its mean does not change.

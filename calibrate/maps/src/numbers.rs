@@ -65,7 +65,7 @@ impl NumberType {
     }
 
     /// Converts the numbers in `bytes` and writes them to `values[0]`, `values[stride]` and so on.
-    /// This rounds numbers that f32 does not hold, and stops at the end of the shorter side.
+    /// This rounds numbers that f32 does not hold, and stops when `bytes` or `values` end.
     pub(crate) fn convert(self, order: ByteOrder, bytes: &[u8], values: &mut [f32], stride: usize) {
         macro_rules! convert {
             ($type:ty) => {

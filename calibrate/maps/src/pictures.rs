@@ -17,15 +17,15 @@ use crate::surveyed::SurveyedScan;
 pub struct Overview {
     /// Pixels of the scan along each side of a square.
     pub step: usize,
-    /// Squares in a row.
+    /// Number of squares in a row.
     pub width: usize,
-    /// Rows of squares.
+    /// Number of rows of squares.
     pub height: usize,
     /// Names of the pigments.
     pub pigments: Vec<String>,
-    /// Mean share of each pigment. There is one field of squares for each.
+    /// Mean share of each pigment in each square. There is a list of all squares for each pigment.
     pub share: Vec<Vec<f32>>,
-    /// Mean probability of each pigment.
+    /// Mean probability of each pigment in each square, as in `share`.
     pub presence: Vec<Vec<f32>>,
     /// Mean chi-square of each square, which includes pixels out of gamut.
     pub chi2: Vec<f32>,
@@ -33,7 +33,7 @@ pub struct Overview {
     pub rms: Vec<f32>,
     /// Mean share of each pigment over all mapped pixels.
     pub mean_share: Vec<f64>,
-    /// Part of the mapped pixels where a pigment is more likely present than not.
+    /// Part of the mapped pixels in which each pigment is more likely present than not.
     pub present: Vec<f64>,
     /// Number of pixels by mask.
     pub pixels: PixelCounts,
@@ -153,7 +153,7 @@ const DARKEST: u8 = 150;
 /// Pictures of one pigment or group.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PigmentPictures {
-    /// Place in [`Overview::pigments`].
+    /// Index in [`Overview::pigments`].
     pub place: usize,
     /// Name of the file of its presence.
     pub presence_file: String,

@@ -267,7 +267,7 @@ pub struct MapsAbout {
     pub library_sha256: String,
     /// SHA-256 of the survey's book, in hexadecimal digits.
     pub book_sha256: String,
-    /// SHA-256 or another sign that tells this scan from others.
+    /// SHA-256 or another fingerprint of the scan.
     pub scan: String,
     /// Rows of the scan that are mapped.
     pub rows: Range<usize>,

@@ -54,7 +54,7 @@ pub struct MapRequest {
     /// 0.003]
     pub noise: Option<f64>,
     /// Errors of mixtures that the library had not seen, from the residuals of `impasto validate`
-    /// [default: for the oils that ship their own]
+    /// [default: for the Van Gogh oils, the residuals that ship with them]
     #[schemars(with = "Option<String>")]
     pub residuals: Option<PathBuf>,
     /// How far K and S of the library may be off, as a fraction [default: 0.1 for a library without
@@ -316,7 +316,7 @@ fn group(text: &str) -> Result<PigmentGroup, RequestError> {
     })
 }
 
-/// Writes a region as people write it.
+/// Text of a region, for example `0..512,100..300`.
 fn text_of(region: &Region) -> String {
     let Region { rows, columns } = region;
     format!("{}..{},{}..{}", rows.start, rows.end, columns.start, columns.end)

@@ -87,7 +87,7 @@ impl SurveyedScan {
         Self::of(cube, library, mapper, settings, region, book)
     }
 
-    /// The scan with the book of an earlier survey.
+    /// Takes the book of an earlier survey instead of surveying the scan.
     ///
     /// # Errors
     /// [`SurveyError`] if you made the book with another library, other wavelengths or other
@@ -121,7 +121,7 @@ impl SurveyedScan {
             scan: cube.sign()?,
             rows: region.rows,
             columns: region.columns,
-            settings: told(settings, &mapper),
+            settings: stored_settings(settings, &mapper),
         };
         Ok(Self { cube, mapper, book, opened, about })
     }
@@ -225,7 +225,7 @@ fn within(cube: Cube, library: &PigmentLibrary) -> Result<Cube, CubeError> {
     }
 }
 
-/// The region, or all of the cube.
+/// Returns `region` if it lies within the cube, or all of the cube if there is none.
 fn inside(cube: &Cube, region: Option<Region>) -> Result<Region, SurveyError> {
     let whole = Region { rows: 0..cube.lines(), columns: 0..cube.samples() };
     let Some(region) = region else { return Ok(whole) };
@@ -240,7 +240,7 @@ fn fits(part: &Range<usize>, all: &Range<usize>) -> bool {
 }
 
 /// The settings that we store with the maps.
-fn told(settings: &MapSettings, mapper: &Mapper) -> Map<String, Value> {
+fn stored_settings(settings: &MapSettings, mapper: &Mapper) -> Map<String, Value> {
     let groups: Map<String, Value> = (mapper.columns().iter())
         .filter(|column| column.pigments.len() > 1)
         .map(|column| (column.name.clone(), json!(column.pigments)))

@@ -105,8 +105,8 @@ impl ZarrArray {
 
 type Stored = Option<Result<Vec<u8>, ZarrFault>>;
 
-/// Stored bytes of the chunk `inside` a shard. The shard has `chunks` chunks of at most `most`
-/// bytes each.
+/// Stored bytes of the chunk with the number `inside` in a shard. The shard has `chunks` chunks of
+/// at most `most` bytes each.
 fn stored_in_shard(
     file: &Path,
     (chunks, most): (usize, u64),
@@ -438,7 +438,7 @@ pub(crate) fn group_document(
 /// We pack chunks at this level, because higher ones take longer and save little.
 pub(crate) const GZIP_LEVEL: u32 = 4;
 
-/// A step from bytes to bytes.
+/// A codec that turns bytes into other bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Step {
     Gzip,

@@ -1,4 +1,4 @@
-//! Maps of simulated pixels: equal bytes in any pieces, bad pixels, books, settings.
+//! Maps of simulated pixels: equal bytes for blocks of any size, bad pixels, books, settings.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 

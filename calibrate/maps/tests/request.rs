@@ -1,4 +1,5 @@
-//! A request maps a small scan in memory as settings that are made by hand do.
+//! A map by request equals a map by settings that are made in code. The scan is small and in
+//! memory.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 

@@ -1,4 +1,4 @@
-//! Even hands: samples of a pen along straight and turning paths.
+//! Hands that move evenly: samples of a pen along straight and turning paths.
 
 use paint::Sample;
 

@@ -148,9 +148,9 @@ fn power(profile: &[f64], step_mm: f64, per_mm: f64) -> f64 {
     (real * real + imaginary * imaginary) / (count * count)
 }
 
-/// Wavelength in mm at the peak of the mean power spectrum of several profiles of one length. First
-/// subtracts the parabola of each. Searches from two cells to 1 / 1.5 of the length, in steps of a
-/// quarter of a wave over the length. Returns NaN without profiles or relief.
+/// Wavelength in mm at the peak of the mean power spectrum of several profiles of equal length,
+/// after subtracting the parabola of each. Searches waves from two cells to two thirds of the
+/// length, in steps of a quarter of a wave per length. Returns NaN without profiles or relief.
 #[must_use]
 pub fn peak_wavelength_mm(profiles: &[Vec<f64>], step_mm: f64) -> f64 {
     let length_mm = profiles.first().map_or(0.0, |profile| profile.len() as f64 * step_mm);
@@ -321,9 +321,9 @@ pub struct Mark {
     pub edges_mm: (f64, f64),
     /// Rows of the middle 60 % of the width.
     pub middle: Range<usize>,
-    /// Mean height of the wet paint there, over the steady part.
+    /// Mean height of the wet paint in these rows, over the steady part.
     pub film_mm: f64,
-    /// Place along x where it begins.
+    /// Place along x where the mark begins.
     pub start_mm: f64,
 }
 

@@ -1,6 +1,6 @@
 //! Fits to the Van Gogh oils: error limits in CIEDE2000 under D65 for the CIE 1931 observer,
-//! quadrature rules with their colour errors on mixtures of the oils, and long work that is asked
-//! to end.
+//! quadrature rules with their colour errors on mixtures of the oils, and long work that is
+//! cancelled.
 
 #![expect(clippy::result_large_err, reason = "the error of calibrate, as its own calls return it")]
 
@@ -308,7 +308,8 @@ fn names_are_found_exactly_then_without_case_then_by_their_start() {
     assert_eq!(library.find("red l"), Ok(PigmentId(lake)));
 }
 
-/// The stages that `work` reports, if it is cancelled at the first that begins with `last`, and its error.
+/// Runs `work` and cancels it at the first stage that begins with `last`. Returns the stages that
+/// it reported, and its error.
 fn until<T>(
     last: &'static str,
     work: impl FnOnce(&Task) -> Result<T, FittingError>,

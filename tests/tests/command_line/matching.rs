@@ -1,5 +1,6 @@
-//! `impasto match` (targets, prices, limits, lights and films), `impasto correct` (batches, recipes and
-//! stock), and `impasto match --by spectrum` with its table and the case that it is made for.
+//! `impasto match` (targets, prices, limits, lights and films), `impasto correct` (batches, recipes
+//! and stock), and `impasto match --by spectrum`: its table, and that its recipes are less
+//! metameric.
 
 use serde_json::Value;
 use suite::program::{impasto, repository};

@@ -51,7 +51,8 @@ fn section(page: &mut String, name: &str, schema: &Value) {
     }
 }
 
-/// A word as JSON has it: a text or a number, or a key with further keys.
+/// A word of an enum as it stands in JSON: a text or a number, or the first key of an object with
+/// its value.
 fn written(word: &Value) -> String {
     match word["properties"].as_object().and_then(|keys| keys.iter().next()) {
         Some((key, value)) => format!("`{key}`: {}", takes(value)),

@@ -187,8 +187,7 @@ fn layers_relief_and_gloss_are_those_of_the_formulas() {
 }
 
 /// Light of a cell by the formulas of [`paint::shade`] in f64. `flat` is the colour of a level
-/// cell, and
-/// `top` gives heights around the cell in quanta.
+/// cell, and `top` gives heights around the cell in quanta.
 fn shaded(
     prepared: &ReliefLamp,
     lamp: &Lamp,

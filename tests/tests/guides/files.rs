@@ -9,7 +9,8 @@ use suite::program::{impasto, repository};
 
 const LONGEST: u32 = 96;
 
-/// A small style of brushwork. There is a small map of it, too.
+/// File of a small style of brushwork. The file [`MAP`] is a small map that is painted in this
+/// style.
 pub(crate) const STYLE: &str = "small.toml";
 pub(crate) const MAP: &str = "small.artmap.exr";
 
@@ -109,7 +110,7 @@ trial,0.1,0.22,0.38,0.5,0.42,0.3,0.3
 
 const WAVELENGTHS: &str = "sample,400,450,500,550,600,650,700\n";
 
-/// Zinc white with cobalt blue, and with less of it.
+/// Reading of zinc white with cobalt blue. [`BATCH`] has less blue.
 const STANDARD: &str = "standard,0.5,0.74,0.63,0.31,0.2,0.21,0.45\n";
 const BATCH: &str = "batch,0.52,0.78,0.69,0.39,0.27,0.28,0.53\n";
 

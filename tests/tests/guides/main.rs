@@ -43,7 +43,7 @@ const OTHERS: [&str; 8] = [
     "apps/web/serve",
 ];
 
-/// Verbs, words of the command, and options that make its work small.
+/// Verb, words that the command must contain, and options that make its work small.
 const SMALL: [(&str, &[&str], &[&str]); 8] = [
     ("paint", &["--from"], &["--width-mm", "24"]),
     ("paint", &["--from"], &["--palette", "Lead White,Ultramarine,Chrome Yellow,Vermilion"]),

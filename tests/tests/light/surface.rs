@@ -17,7 +17,7 @@ use spectra::color::{Adaptation, RgbSpace};
 use crate::made_up::{CELL_MM, document, glazes_over_mixtures, lay, oils};
 use TopMaterial::{Dry, Ground, Wet};
 
-/// Width of the surfaces in cells, and their middle.
+/// Width of the surfaces in cells. Their middle is at [`MIDDLE`].
 const SIDE: usize = 65;
 const MIDDLE: usize = 32;
 

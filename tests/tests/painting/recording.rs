@@ -13,7 +13,7 @@ use rand::RngExt;
 
 use super::studio::{
     BACKENDS, Backend, PALETTE, Whole, header, live, load, loaded_session as loaded, oils, on_cpu,
-    seeded, set_up, something, spec, squeeze, surface, whole,
+    random_action, seeded, set_up, spec, squeeze, surface, whole,
 };
 
 /// Writes the recording of a session as JSON and reads it back.
@@ -93,7 +93,7 @@ fn paint_at_random(session: &mut PaintingSession, seed: u64, actions: usize) {
                 let (_, done) = session.history();
                 session.go_to(random.random_range(done.saturating_sub(4)..done + 3)).unwrap();
             }
-            _ => _ = something(session, &mut random),
+            _ => _ = random_action(session, &mut random),
         }
     }
     session.end_adjustment();

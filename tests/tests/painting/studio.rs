@@ -293,7 +293,7 @@ pub(crate) fn live(
 
 /// Tries a random action. Returns whether it became a step of the history. It may be refused, e.g.
 /// a palette without a pigment that is wet, or a swap in a layer without the pigment.
-pub(crate) fn something(session: &mut PaintingSession, random: &mut ChaCha8Rng) -> bool {
+pub(crate) fn random_action(session: &mut PaintingSession, random: &mut ChaCha8Rng) -> bool {
     let layers = session.canvas().state().dry.len();
     let on = surface(random);
     let action = match random.random_range(0..14) {

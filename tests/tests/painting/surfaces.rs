@@ -13,7 +13,7 @@ use paint::strokes::{Action, LayerRef, PaletteSpec, SurfaceId};
 
 use super::studio::{
     BACKENDS, CELL_MM, PALETTE, RED, along, header, live, load, loaded_session as loaded, pigment,
-    seeded, sessions, set_up, something, spec, squeeze, wander, whole,
+    random_action, seeded, sessions, set_up, spec, squeeze, wander, whole,
 };
 
 #[test]
@@ -23,7 +23,7 @@ fn whatever_was_done_on_either_surface_is_undone_and_redone_to_the_bit() {
         loaded(&mut session);
         let mut past = vec![whole(&mut session)];
         for round in 0..40 {
-            if something(&mut session, &mut random) {
+            if random_action(&mut session, &mut random) {
                 past.push(whole(&mut session));
                 assert_eq!(session.history().1, past.len() - 1, "round {round}: one action");
             } else {
@@ -53,7 +53,7 @@ fn what_one_surface_forgot_makes_all_before_it_unreachable() {
         let mut forgot = 0;
         for _ in 0..30 {
             let before = session.history().1;
-            if something(&mut session, &mut random) {
+            if random_action(&mut session, &mut random) {
                 done += 1;
                 past.push(whole(&mut session));
             }

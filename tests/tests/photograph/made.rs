@@ -19,7 +19,7 @@ pub(crate) struct Studio {
 
     pub(crate) quadrature: EffectiveQuadrature,
     pub(crate) ground: Vec<f64>,
-    /// White, black, three yellows to reds, two blues and a green.
+    /// White, black, a yellow, two reds, two blues and a green.
     pub(crate) slots: Slots,
 }
 

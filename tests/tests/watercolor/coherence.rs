@@ -144,8 +144,9 @@ fn popping(bare: &[Bare], noise: &[Field<f32>]) -> f64 {
     all.rms()
 }
 
-/// RMS change relative to the same noise standing still: flow and dispersion by features, and flow
-/// by particles for each of their numbers.
+/// RMS change of the noise from frame to frame, relative to noise that stands still. The first list
+/// is for features (flow, dispersion), the second for particles (flow with each number in
+/// `particles`).
 fn measured(mesh: Mesh, turn: &Turn, particles: &[usize]) -> (Vec<f64>, Vec<f64>) {
     let Turn { width, height, .. } = *turn;
     let subject = Subject::new(mesh);

@@ -23,7 +23,8 @@ pub use trials::{
     Unmixed, coverage, covered, reliability,
 };
 
-/// Groups by name. Every pigment outside them is a group by itself.
+/// Pigments and their groups in the trials. A pigment outside the named groups is a group by
+/// itself.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NamedGroups {
     /// Names of all pigments of the trials.
@@ -58,7 +59,8 @@ impl NamedGroups {
         Self { pigments, group_of, count }
     }
 
-    /// Sorts values by name into a list by pigment.
+    /// Makes a list with a value for each pigment from pairs of name and value. Values of one name
+    /// are summed.
     fn list<'a>(&self, values: impl IntoIterator<Item = (&'a str, f64)>) -> Vec<f64> {
         let mut list = vec![0.0; self.pigments.len()];
         for (name, value) in values {
@@ -73,14 +75,15 @@ impl NamedGroups {
 /// Trials of all swatches by one method.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SwatchTrials {
-    /// Trials by single pigment.
+    /// Trials in which each pigment counts by itself.
     pub pigments: Vec<Trial>,
-    /// Trials by group.
+    /// Trials in which each group counts as one pigment.
     pub groups: Vec<Trial>,
 }
 
 impl SwatchTrials {
-    /// Trials by a baseline. It calls a pigment present if its share is above `least`.
+    /// Trials by the linear method `baseline`. A pigment counts as found if its share is above
+    /// `least`.
     #[must_use]
     pub fn baseline(
         samples: &[LeftOut],
@@ -243,7 +246,8 @@ fn f1_without(trials: &SwatchTrials, folds: usize, fold: usize) -> f64 {
     groups + pigments
 }
 
-/// Groups of the Van Gogh oils that look alike from 400 to 700 nm. We report figures for these.
+/// Groups of Van Gogh oils that look alike from 400 to 700 nm. Trials by group count each as one
+/// pigment.
 #[must_use]
 pub fn oil_groups() -> Vec<PigmentGroup> {
     let whites = ["Zinc White", "Lead White", "Barium Sulphate", "Calcium Carbonate"];
@@ -292,19 +296,19 @@ pub fn prepared_oils(readings: &Readings) -> Result<PreparedFit, FittingError> {
 /// Trials of simulated paintings of several seeds.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PaintingTrials {
-    /// Trials of pixels that we searched whole.
+    /// Trials of a full search of each pixel.
     pub searched: Vec<Trial>,
-    /// Trials of pixels that we mapped with a survey.
+    /// Trials of maps that we made with a survey.
     pub mapped: Vec<Trial>,
-    /// Best set of each searched pixel beside its true pigments.
+    /// For each searched pixel, its best set compared with its true pigments.
     pub beside: Vec<BesideTruth>,
     /// Tone of each pixel: 0 dark, 1 middle, 2 light.
     pub tones: Vec<usize>,
 }
 
 impl PaintingTrials {
-    /// Share of the pixels for which the search found only sets with a worse score than the true
-    /// pigments.
+    /// Share of the pixels where the search missed a better set: its best score is worse than the
+    /// score of the true pigments.
     #[must_use]
     pub fn worse(&self) -> f64 {
         let worse = self.beside.iter().filter(|beside| beside.is_worse).count();
@@ -318,7 +322,7 @@ impl PaintingTrials {
     }
 }
 
-/// Ends of dark and of middle paint, in mean reflectance.
+/// Mean reflectance where dark paint ends, and where middle paint ends.
 const TONES: [f32; 2] = [0.1, 0.3];
 
 /// Tone of a mean reflectance: 0 dark, below 0.1; 1 middle; 2 light, 0.3 or more.
@@ -336,8 +340,8 @@ pub enum Told {
     Palette,
 }
 
-/// Paints one painting of `plan` for each of `seeds` with the pigments of `real`, and maps it with
-/// the library `known` and `settings`. If `told` says so, the map also knows the palette of the
+/// Simulates a painting of `plan` for each of `seeds` with the pigments of `real`, and maps it with
+/// the library `known` and `settings`. With [`Told::Palette`] the map also knows the palette of the
 /// painting.
 pub fn painting_trials(
     (real, known): (&PigmentLibrary, &PigmentLibrary),
@@ -379,9 +383,9 @@ pub struct Missing {
     pub false_presences: [f64; 2],
 }
 
-/// Maps paintings as [`painting_trials`] does, with a library that lacks one pigment of each. This
-/// is the first that is not in a group of `settings`, because another pigment of the group would
-/// take its place.
+/// Maps paintings as [`painting_trials`] does, but with a library that lacks one pigment of each
+/// painting. We leave out the first pigment that is in no group of `settings`, because another
+/// pigment of its group would take its place.
 pub fn missing_pigment(
     library: &PigmentLibrary,
     plan: &PaintingPlan,

@@ -15,7 +15,7 @@ use crate::films::film::Paints;
 use crate::mapping::{Gap, Mapper};
 use crate::pixel_maps::{BlockMaps, MapError, Mask};
 
-/// Simulated errors of K and S are alike over this length in nm.
+/// Correlation length in nm of the simulated errors of K and S.
 const SMOOTH_NM: f64 = 50.0;
 /// Standard deviation of the logarithm of each amount between pixels of one recipe.
 const UNEVEN: f64 = 0.1;
@@ -34,7 +34,7 @@ pub struct PaintingPlan {
     pub palette: Vec<String>,
     /// Number of recipes. Each has one to `at_most` pigments.
     pub recipes: usize,
-    /// Most pigments of a recipe.
+    /// Greatest number of pigments in a recipe.
     pub at_most: usize,
     /// Least share of a pigment in a recipe.
     pub least_share: f64,
@@ -47,7 +47,8 @@ pub struct PaintingPlan {
 }
 
 impl Default for PaintingPlan {
-    /// 8 pigments, 60 recipes of one to three of 10 % and more, noise 0.003, K and S off by 10 %.
+    /// 8 pigments and 60 recipes, each of one to three pigments with shares of at least 10 %. The
+    /// noise is 0.003, and K and S are off by 10 %.
     fn default() -> Self {
         Self {
             seed: 1,
@@ -63,16 +64,16 @@ impl Default for PaintingPlan {
     }
 }
 
-/// Compares the best set of a whole search with the true pigments of a pixel.
+/// Compares the best set of a full search with the true pigments of a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BesideTruth {
-    /// Whether its score is worse than the score of the true pigments. Then a wider search would
-    /// have found them.
+    /// Whether the score of the best set is worse than the score of the true pigments. Then a wider
+    /// search would have found them.
     pub is_worse: bool,
-    /// Whether it has the true pigments or groups.
+    /// Whether the best set holds the true pigments, or pigments of the same groups.
     pub is_right: bool,
-    /// Its chi-square minus the chi-square of the true pigments. This shows how much the spectrum
-    /// speaks for them.
+    /// Chi-square of the best set minus the chi-square of the true pigments. This shows how much
+    /// the spectrum speaks for the true ones.
     pub chi2: f64,
 }
 
@@ -81,14 +82,14 @@ pub struct BesideTruth {
 pub struct Painting {
     /// Names of the pigments of the painting.
     pub pigments: Vec<String>,
-    /// Pigments of each pixel with their shares. A pigment is a place in `pigments`.
+    /// Pigments of each pixel, as indices in `pigments`, with their shares.
     pub truth: Vec<Vec<(usize, f64)>>,
     /// Reflectances, pixel after pixel, on the library's grid.
     pub spectra: Vec<f32>,
 }
 
 impl Painting {
-    /// Paints with the pigments of `real` that you also find in `known`.
+    /// Simulates a painting with the pigments of `real` that are also in `known`.
     #[must_use]
     pub fn simulate(real: &PigmentLibrary, known: &PigmentLibrary, plan: &PaintingPlan) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(plan.seed);
@@ -165,8 +166,8 @@ impl Painting {
             .collect()
     }
 
-    /// Compares the best set of a whole search of each pixel with its true pigments. This refines
-    /// the shares.
+    /// Compares the best set of a full search of each pixel with its true pigments, after refining
+    /// their shares.
     ///
     /// # Errors
     /// [`MapError::Length`] if the library of `mapper` has other wavelengths.
@@ -273,14 +274,14 @@ impl Trial {
         }
     }
 
-    /// Copies the trial, but calls present whatever has a share in the best set.
+    /// Copies the trial, but counts a pigment as found if it has a share in the best set.
     #[must_use]
     pub fn of_best_set(&self) -> Self {
         Self { present: self.told.iter().map(|share| *share > 0.0).collect(), ..self.clone() }
     }
 
-    /// Joins the columns that have the same number in `group_of`, where numbers go up to `count`.
-    /// This drops probabilities and deviations, because you cannot join them.
+    /// Joins the columns that have the same number in `group_of`. Numbers are below `count`. This
+    /// drops probabilities and deviations, because you cannot join them.
     #[must_use]
     pub fn joined(&self, group_of: &[usize], count: usize) -> Self {
         let [truth, told] = [&self.truth, &self.told].map(|values| {
@@ -305,9 +306,9 @@ impl Trial {
 /// Figures of many trials.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Scores {
-    /// How many of the pigments that the method finds are present, 0 to 1.
+    /// Share of the found pigments that are present, 0 to 1.
     pub precision: f64,
-    /// How many of the present pigments the method finds, 0 to 1.
+    /// Share of the present pigments that the method finds, 0 to 1.
     pub recall: f64,
     /// Mean over pixels of half the sum of the absolute errors of the shares.
     pub share_error: f64,
@@ -381,7 +382,7 @@ fn ratio(value: f64, of: f64) -> f64 {
     if of > 0.0 { value / of } else { 0.0 }
 }
 
-/// How far the probabilities of one range are true.
+/// Probabilities of one range, compared with how often the pigments are present.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reliability {
     /// Least probability of the range.
@@ -390,12 +391,12 @@ pub struct Reliability {
     pub count: usize,
     /// Mean of these probabilities.
     pub told: f64,
-    /// Share of them where the pigment is present.
+    /// Share of these cases in which the pigment is present.
     pub true_part: f64,
 }
 
-/// Reliability of the probabilities of `trials` in ranges. Each begins at one of `ends` and ends
-/// before the next.
+/// Reliability of the probabilities of `trials` by range. A range starts at each of `ends` and
+/// stops before the next one.
 #[must_use]
 pub fn reliability<'a>(
     trials: impl IntoIterator<Item = &'a Trial> + Clone,
@@ -434,8 +435,8 @@ pub struct Coverage {
     pub within: f64,
 }
 
-/// Coverage of the shares of all pigments that the method finds. We leave out films of one column
-/// alone, because their share is 1 by definition.
+/// Coverage of the shares of all pigments that the method finds. We leave out pixels where it finds
+/// only one, because its share is 1 by definition.
 #[must_use]
 pub fn coverage<'a>(trials: impl IntoIterator<Item = &'a Trial>) -> Coverage {
     let mut count = 0;
@@ -459,20 +460,20 @@ pub fn covered(trial: &Trial) -> (usize, usize) {
     (counted.count(), within.count())
 }
 
-/// A linear method.
+/// A common linear method of unmixing, for comparison.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Baseline {
     /// Nonnegative least squares on reflectance, shares of sum 1.
     Reflectance,
     /// Nonnegative least squares on -ln of reflectance, shares of sum 1.
     Absorbance,
-    /// Nonnegative least squares on K/S with one constant.
+    /// Nonnegative least squares on K/S (Kubelka-Munk theory with one constant).
     Ratio,
-    /// Spectral angle to the masstones: the nearest one alone.
+    /// Spectral angle to the masstones. The nearest masstone gets the share 1.
     Angle,
 }
 
-/// Shares by a baseline.
+/// Shares that a baseline finds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unmixed {
     /// Share of each pigment, sum 1.

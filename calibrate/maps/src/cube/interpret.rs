@@ -22,7 +22,7 @@ const FULL_SCALES: [f32; 4] = [1023.0, 4095.0, 16383.0, 65535.0];
 #[derive(Debug)]
 pub(crate) struct Interpreted {
     pub(crate) conversion: Conversion,
-    /// Bands that we keep, in the order of rising wavelength.
+    /// Indices of the bands that we use, in the order of rising wavelength.
     pub(crate) bands: Vec<usize>,
     pub(crate) white_sd: Option<Vec<f64>>,
     pub(crate) black_sd: Option<Vec<f64>>,
@@ -235,7 +235,7 @@ fn check_usable(scan: &Opened, sample: &Sample, conversion: &Conversion) -> Resu
     })
 }
 
-/// Least light of a band as a share of the brightest band's light.
+/// Least light of a band, as a share of the light in the brightest band.
 const LEAST_LIGHT: f64 = 0.01;
 /// We refuse a white reading if more than this share of its columns is without light.
 const MOST_DEAD: f64 = 0.05;
@@ -258,7 +258,8 @@ pub(crate) struct Reading {
 }
 
 impl Reading {
-    /// Averages `opened` over its lines. It must fit `scan`.
+    /// Averages the white or dark reading `opened` over its lines. It must have the bands of
+    /// `scan`, at the same wavelengths, and as many columns, or one.
     pub(crate) fn of(
         opened: &Opened,
         scan: &Opened,
@@ -335,9 +336,9 @@ impl Reading {
 #[derive(Debug)]
 pub(crate) struct Readings {
     pub(crate) white: Reading,
-    /// Dark of the scan, or `None` if someone subtracted it already.
+    /// Dark reading of the scan, or `None` if the dark is subtracted already.
     pub(crate) dark: Option<Reading>,
-    /// Dark of the white, if it has its own.
+    /// Separate dark reading of the white, if there is one.
     pub(crate) white_dark: Option<Reading>,
     pub(crate) tile: f64,
     /// Integration time of the scan divided by the white's.
@@ -349,15 +350,17 @@ pub(crate) struct Referenced {
     pub(crate) terms: Terms,
     /// Whether each band has light.
     pub(crate) good: Vec<bool>,
-    /// Standard deviation of a white's reflectance in each band, from the scatter of the white.
+    /// Standard deviation of the reflectance of a white in each band, from the scatter of the white
+    /// reading over its lines.
     pub(crate) white_sd: Vec<f64>,
-    /// Standard deviation of a black's reflectance in each band, from the scatter of the dark.
+    /// Standard deviation of the reflectance of a black in each band, from the scatter of the dark
+    /// reading over its lines.
     pub(crate) black_sd: Vec<f64>,
     pub(crate) remarks: Vec<String>,
 }
 
 impl Readings {
-    /// Terms for the counts of `scan`. Pass its wavelengths as `nm`.
+    /// Terms that turn the counts of `scan` into reflectance. Pass its wavelengths as `nm`.
     pub(crate) fn terms(&self, scan: &Opened, nm: &[f64]) -> Result<Referenced, CubeError> {
         let fault = |problem: String, way_out: &str| CubeError::Reading {
             path: scan.path.clone(),

@@ -94,8 +94,8 @@ fn open(files: &[ScanFile], path: &Path) -> Result<Opened, CubeError> {
     Ok(envi::opened(path, header, data))
 }
 
-/// Finds the data of a header by name, and among several files by size. If no name fits, this is
-/// the only other file.
+/// Finds the data of a header by name, and among several files by size. If no name fits, the data
+/// are the only other file.
 fn data_of<'f>(
     files: &'f [ScanFile],
     path: &Path,
@@ -128,7 +128,7 @@ fn data_of<'f>(
 pub(crate) struct OwnReadings {
     pub(crate) white: Option<PathBuf>,
     pub(crate) dark: Option<PathBuf>,
-    /// Dark of the white, if the camera took one.
+    /// Separate dark reading of the white, if the camera took one.
     pub(crate) white_dark: Option<PathBuf>,
 }
 

@@ -143,19 +143,19 @@ impl From<SpecimScan> for OwnReadings {
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct SpecimScan {
     pub(crate) scan: PathBuf,
-    /// Header of the white, for counts.
+    /// Header of the white reading, if the scan holds counts.
     pub(crate) white: Option<PathBuf>,
-    /// Header of the dark of the scan, for counts.
+    /// Header of the dark reading of the scan, if the scan holds counts.
     pub(crate) dark: Option<PathBuf>,
-    /// Header of the dark of the white, if the camera took one.
+    /// Header of the dark reading of the white, if the camera took one.
     pub(crate) white_dark: Option<PathBuf>,
     /// Remark that tells the user which scan we chose.
     pub(crate) remark: String,
 }
 
-/// Names of readings begin so.
+/// Prefixes of the names of readings, in upper case: dark of the white, white, dark of the scan.
 const READINGS: [&str; 3] = ["WHITEDARKREF_", "WHITEREF_", "DARKREF_"];
-/// The name of a scan's reflectance begins so.
+/// Prefix of the name of a scan that holds reflectances, in upper case.
 const REFLECTANCE: &str = "REFLECTANCE_";
 
 fn is_specim(folder: &Path) -> bool {

@@ -117,7 +117,7 @@ impl Cube {
         self.black_sd.as_deref()
     }
 
-    /// Root mean square over the bands of [`Cube::white_sd`], or `None` if this is.
+    /// Root mean square of [`Cube::white_sd`] over the bands, or `None` if there is no `white_sd`.
     #[must_use]
     pub fn noise_of_white(&self) -> Option<f64> {
         let sd = self.white_sd().filter(|sd| !sd.is_empty())?;
@@ -227,7 +227,7 @@ impl Cube {
     }
 }
 
-/// We tell a scan from others by about this many pixels.
+/// The fingerprint of a scan covers about this many pixels.
 const SIGN_PIXELS: usize = 4096;
 
 /// Pixels that can be mapped, from all over a rectangle of a cube.
@@ -241,7 +241,7 @@ pub struct SpreadPixels {
     pub looked_at: usize,
 }
 
-/// Distance between rows and between columns, so that you meet about `about` of `rows` x `columns`
+/// Step between rows and step between columns at which we read about `about` of `rows` x `columns`
 /// pixels.
 fn steps(rows: usize, columns: usize, about: usize) -> (usize, usize) {
     let ratio = (rows as f64 * columns as f64 / about.max(1) as f64).max(1.0);
@@ -300,9 +300,9 @@ impl Cube {
         Ok((pixels, mean))
     }
 
-    /// A sign that tells this scan from another one, or from itself read in another way, so that
-    /// you need not read all of it. This is the SHA-256, in hexadecimal digits, of the sizes, the
-    /// wavelengths and the reflectances of about 4,000 pixels.
+    /// Fingerprint of the scan: the SHA-256, in hexadecimal digits, of the sizes, the wavelengths
+    /// and the reflectances of about 4,000 pixels. It differs for another scan, and for this scan
+    /// with other options of reading.
     pub fn sign(&self) -> Result<String, CubeError> {
         let mut hash = Sha256::new();
         for size in [self.lines(), self.samples(), self.wavelengths_nm().len()] {

@@ -101,7 +101,7 @@ const ORDER: ByteOrder =
 #[derive(Debug)]
 pub(crate) struct Spool {
     file: File,
-    /// End of the bytes that we wrote last. The file stands there.
+    /// Position in the file, which is the end of the bytes that we wrote last.
     at: u64,
     folder: PathBuf,
     layout: Layout,
@@ -123,7 +123,7 @@ impl Spool {
         Ok(Self { file, at: 0, folder, layout })
     }
 
-    /// Writes the bytes of neighbouring numbers, beginning at this number.
+    /// Writes the bytes of consecutive numbers. The first number is at this line, sample and band.
     pub(crate) fn write(
         &mut self,
         (line, sample, band): (usize, usize, usize),

@@ -27,7 +27,8 @@ pub(crate) struct Plane {
 }
 
 impl Plane {
-    /// Checks that this picture is like the first of its stack. Messages call it `place`.
+    /// Checks that this picture has the size and numbers of the first one in its stack. Messages
+    /// call it `place`.
     pub(crate) fn check_like(self, first: Self, path: &Path, place: &str) -> Result<(), CubeError> {
         if self == first {
             return Ok(());
@@ -258,7 +259,7 @@ pub(crate) fn tiff_pages(path: &Path) -> Result<Pages, CubeError> {
     TiffDecoder::new(BufReader::new(file)).map_err(|error| tiff_fault(path, error))
 }
 
-/// Size and numbers of the decoder's page.
+/// Size and numbers of the current page of the decoder.
 pub(crate) fn tiff_plane(pages: &mut Pages, path: &Path, place: &str) -> Result<Plane, CubeError> {
     let colors = pages.colortype().map_err(|error| tiff_fault(path, error))?;
     let bands = match colors {
@@ -283,7 +284,7 @@ fn has_parts_of_bands(pages: &mut Pages, path: &Path) -> Result<bool, CubeError>
     Ok(order == Some(PlanarConfiguration::Planar.to_u16()))
 }
 
-/// Unpacks the decoder's page part by part, as `band` and the bands after it.
+/// Unpacks the current page of the decoder part by part, as `band` and the bands after it.
 pub(crate) fn unpack_tiff(
     pages: &mut Pages,
     path: &Path,

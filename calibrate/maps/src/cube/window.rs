@@ -74,7 +74,8 @@ pub(crate) trait Source: Debug + Send + Sync {
     /// Bytes of memory that you need beside the values to read a window of `rows` x `columns`.
     fn scratch_bytes(&self, rows: usize, columns: usize) -> usize;
 
-    /// Number of rows that you should read together. After them a new part of the file begins.
+    /// Number of rows that are stored together, for example in a chunk. It is best to read them at
+    /// once.
     fn natural_rows(&self) -> usize {
         1
     }
@@ -110,7 +111,7 @@ pub(crate) struct Conversion {
     pub(crate) terms: Terms,
 }
 
-/// Signs that we saw in the values of a pixel.
+/// Facts about the values of a pixel that decide its mask.
 #[derive(Debug, Clone, Copy, Default)]
 struct Signs {
     ignored: bool,

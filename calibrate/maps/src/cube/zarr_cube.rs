@@ -17,8 +17,8 @@ use crate::zarr::{ChunkError, ZarrArray, ZarrFault};
 const BAND_AXES: [&str; 6] = ["wavelength", "wavelengths", "wl", "lambda", "band", "bands"];
 const ROW_AXES: [&str; 5] = ["y", "row", "rows", "line", "lines"];
 
-/// We accept at most this many bands, and numbers in a row, which we hold in memory. So a
-/// description alone cannot take much memory.
+/// We accept at most this many bands, and at most [`MOST_ROW`] numbers in a row, because we hold a
+/// row in memory. So a description alone cannot take much memory.
 const MOST_BANDS: usize = 65_536;
 const MOST_ROW: usize = 1 << 28;
 
@@ -90,7 +90,7 @@ fn chosen(folder: &Path, options: &CubeOptions) -> Result<(PathBuf, Value), Cube
     }
 }
 
-/// Rows, columns and bands as numbers of axes.
+/// Indices of the axes of rows, columns and bands.
 fn axes(array: &ZarrArray) -> Result<[usize; 3], CubeError> {
     let names: Vec<String> =
         array.about.dimensions.iter().map(|name| name.to_lowercase()).collect();
@@ -234,7 +234,7 @@ fn chunk_error(error: ChunkError) -> CubeError {
 struct ZarrSource {
     array: ZarrArray,
     strides: Vec<usize>,
-    /// Places of the axes of rows, columns and bands in the array.
+    /// Indices of the axes of rows, columns and bands in the array.
     axes: [usize; 3],
 }
 

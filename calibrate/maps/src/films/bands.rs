@@ -24,7 +24,7 @@ const FINER: f64 = 0.8;
 /// A folded value as a weighted sum of other values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// Places of the values, with their weights, which sum to 1.
+    /// Indices of the values, with their weights. The weights sum to 1.
     pub terms: Vec<(usize, f64)>,
 }
 
@@ -280,8 +280,8 @@ pub(crate) struct BareGround {
     reflectance: Vec<f64>,
     /// 1 / variance of each band.
     weights: Vec<f64>,
-    /// Weights of two sums. We subtract their squares from chi-square, because of the common
-    /// differences.
+    /// Weights of two sums over the differences of a pixel from the ground. We subtract the squares
+    /// of these sums from chi-square, because lightness and gloss vary in common.
     common: [Vec<f64>; 2],
 }
 

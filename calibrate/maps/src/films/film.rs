@@ -25,8 +25,8 @@ pub(crate) struct Films {
     pub(crate) bands: usize,
     /// Blocks of bands, with K = S = 1 beyond the last band.
     pub(crate) blocks: usize,
-    /// Blocks of pigments, with K = S = 0 before the first pigment. We combine each pigment with
-    /// the ones after it, so it is best if the last block is full.
+    /// Blocks of pigments. The lanes before the first pigment are padding with K = S = 0. We
+    /// combine each pigment with the ones after it, so it is best if the last block is full.
     pub(crate) columns: usize,
     /// K and S by pigment, each `blocks` long.
     absorption: Vec<f32x8>,
@@ -212,8 +212,10 @@ impl Films {
         found
     }
 
-    /// Products of all pigments' rows. For the shares of a film like `pixel` the rows sum to 0. We
-    /// linearise with secants to the film `about`, which you pass as internal reflectance and 1/S.
+    /// Sets up the linearised problem of `pixel`. It has a row of values for each pigment. For the
+    /// shares of a film like `pixel`, the rows times their shares sum to 0. This stores the
+    /// products of all pairs of rows in `work`. We linearise with secants to the film `about`,
+    /// which you pass as internal reflectance and 1/S.
     pub(crate) fn products(&self, pixel: &Pixel, about: (&Spectrum, &Spectrum), work: &mut Work) {
         by_vectors(Products { films: self, pixel, about, work });
     }
@@ -328,8 +330,8 @@ pub(crate) struct Work {
     /// this, because pigments of little S would otherwise seem to explain every pixel.
     sizes: Vec<f32x8>,
     inverse: Vec<f32x8>,
-    /// Products of the rows of all pairs of pigments. The upper half is valid. The row and lane of
-    /// a pigment is `before` plus its place.
+    /// Products of the rows of all pairs of pigments. Only the upper half is valid. The row or lane
+    /// of a pigment is its index plus `before`.
     pub(crate) products: Vec<f32x8>,
     before: usize,
 }
@@ -345,7 +347,7 @@ impl Work {
         }
     }
 
-    /// Product of the rows of two pigments. `a` must not come after `b`.
+    /// Product of the rows of pigments `a` and `b`, where `a` is at most `b`.
     #[inline(always)]
     pub(crate) fn product(&self, a: usize, b: usize) -> f32 {
         let a = a + self.before;
@@ -353,14 +355,15 @@ impl Work {
         self.products[a * self.sizes.len() + b / LANES].as_array()[b % LANES]
     }
 
-    /// We divide the row of a pigment by this size.
+    /// Number by which we divide the row of a pigment.
     pub(crate) fn size(&self, pigment: usize) -> f32 {
         let lane = pigment + self.before;
         self.sizes[lane / LANES].as_array()[lane % LANES]
     }
 }
 
-/// Least K and S relative to the greatest of the pigment. Below this the optics have no slope.
+/// Least K of a pigment in a band relative to its greatest K, and likewise for S. At 0 the optics
+/// would have no slope.
 const LEAST: f64 = 1e-7;
 
 /// Pigments on the bands of a map.
@@ -431,7 +434,7 @@ impl Paints {
         self.absorption.first().map_or(0, Vec::len)
     }
 
-    /// Place of the pigment called `name`, or `None` if none is.
+    /// Index of the pigment called `name`, or `None` if there is none.
     #[must_use]
     pub fn place(&self, name: &str) -> Option<usize> {
         self.names.iter().position(|known| known == name)

@@ -36,12 +36,12 @@ pub struct MapSettings {
     /// 0.003.
     pub sensor_noise: f64,
     /// Error of the library's predictions. Default: the errors of left-out mixtures for the library
-    /// that we ship, and 10 % of K and S for any other. Of 5 to 70 %, this unmixes the measured Van
-    /// Gogh oils best.
+    /// that we ship, and 10 % of K and S for any other. We tried 5 to 70 %, and 10 % unmixes the
+    /// measured Van Gogh oils best.
     pub model_error: Option<ModelError>,
-    /// A further pigment must save this chi-square, 0 to 100, unless the survey finds it in the
-    /// palette. This adds to the prior, which makes mixtures of any number of pigments equally
-    /// likely. Default: 2.
+    /// Amount by which a further pigment must lower chi-square, 0 to 100, unless the survey finds
+    /// it in the palette. This adds to the prior, which makes mixtures of any number of pigments
+    /// equally likely. Default: 2.
     pub penalty: f64,
     /// The bare ground. We report its pixels and do not map them. If you leave this out (the
     /// default), bare ground looks like paint.
@@ -64,8 +64,8 @@ impl Default for MapSettings {
 }
 
 impl MapSettings {
-    /// Error of the predictions of `library`: the one that you state, else the usual one. We put
-    /// residuals on the library's wavelengths.
+    /// Error of the predictions of `library`: the stated one, or else the usual one. Residuals are
+    /// converted to the library's wavelengths.
     ///
     /// # Errors
     /// [`ResidualsError`] if residuals hold fewer than [`LEAST_MIXTURES`] mixtures, or do not cover
@@ -108,28 +108,29 @@ impl MapSettings {
     }
 }
 
-/// We move this part of the covariance of left-out residuals to its diagonal. A few dozen mixtures
-/// do not determine a covariance of 31 bands. We chose it on the Van Gogh oils, where 0.3 to 0.6
-/// give the same.
+/// We shrink the covariance of left-out residuals towards its diagonal by this part, because a few
+/// dozen mixtures do not determine a covariance of 31 bands. We chose it on the Van Gogh oils,
+/// where 0.3 to 0.6 give equal results.
 const SHRINKAGE: f64 = 0.5;
 /// Degrees of freedom of the residuals' distribution. Some mixtures err ten times as much as others, so
 /// that their tails are heavier than normal ones. We chose it on the Van Gogh oils.
 const TAIL: f64 = 10.0;
-/// Lengths in nm over which stated errors of K and S are alike, with their parts of the variance.
-/// The rest is independent from band to band. We chose this on simulated paintings with other seeds
-/// than the tests use. Longer ones give deviations that are too small.
+/// Correlation lengths in nm of stated errors of K and S, each with its part of the variance. The
+/// rest of the variance is independent from band to band. We chose them on simulated paintings with
+/// other seeds than the tests have. Longer ones give deviations that are too small.
 const SMOOTH: [(f64, f64); 2] = [(60.0, 0.5), (30.0, 0.45)];
 /// Relative error of K and S if you do not state one.
 pub const USUAL_MODEL_ERROR: f64 = 0.1;
-/// Stated errors of a mixture's pigments partly cancel. This is a mean of the sum of squares of the
-/// pigments' parts in K and in S: 2 for one pigment, 1 for two of the same strength.
+/// Factor on the variance of stated errors, because the errors of a mixture's pigments partly
+/// cancel. For a mixture it is the sum of squares of the pigments' parts in K and in S: 2 for one
+/// pigment, 1 for two of the same strength. We use a mean.
 const CANCELLED: f64 = 1.8;
-/// You need this many left-out mixtures to see how a library errs. With fewer, their mean product
+/// You need this many left-out mixtures to see how a library errs. With fewer, the covariance
 /// depends on a few contradictory swatches.
 pub const LEAST_MIXTURES: usize = 10;
 /// Least standard deviation of a band, in reflectance.
 const LEAST_SD: f64 = 1e-4;
-/// Least part of a band's variance that is its own.
+/// Least part of a band's variance that it shares with no other band.
 const LEAST_OWN: f64 = 1e-3;
 /// We describe errors that bands have in common by this many curves over wavelength.
 pub(crate) const CURVES: usize = 8;
@@ -170,12 +171,13 @@ pub(crate) struct Noise {
     pub(crate) sensor: Vec<f64>,
     /// For each band, the standard deviation that each curve describes.
     pub(crate) curves: Vec<[f64; CURVES]>,
-    /// Variance of each band beyond the curves.
+    /// Variance of each band that the curves do not describe.
     pub(crate) own: Vec<f64>,
     pub(crate) scale: Scale,
     /// Degrees of freedom of Student's distribution, infinite for a normal one.
     pub(crate) tail: f64,
-    /// This many independent bands would show as much of the library's error.
+    /// Effective number of bands: as many independent bands would show as much of the library's
+    /// error.
     pub(crate) effective_bands: f64,
 }
 

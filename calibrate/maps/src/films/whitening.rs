@@ -72,9 +72,9 @@ pub(crate) struct WhiteningNoise {
 pub(crate) struct Whitening {
     /// 1 / standard deviation of each band by itself, and 0 beyond the last.
     pub(crate) scale: Spectrum,
-    /// A by band, with all curves of one.
+    /// The matrix A: for each band the values of all curves.
     curves: [f32x8; MOST_BANDS],
-    /// A (I + L^T)^-1 L^-1 by curve.
+    /// The matrix A (I + L^T)^-1 L^-1: for each curve the values of all bands.
     removed: [Spectrum; CURVES],
 }
 
@@ -204,7 +204,7 @@ fn removal(products: &[[f32; CURVES]; CURVES]) -> [[f32; CURVES]; CURVES] {
 }
 
 impl Whitening {
-    /// Whitens the difference of a spectrum from the pixel, and `others` with it.
+    /// Whitens the difference `values` of a spectrum from the pixel, and the differences `others`.
     #[inline(always)]
     pub(crate) fn whiten<V: Vectors, const N: usize>(
         &self,
@@ -253,8 +253,8 @@ impl Whitening {
         }
     }
 
-    /// Whitens many differences, which stand side by side in rows of `columns` blocks for each
-    /// band. Multiply them by the scale before.
+    /// Whitens many differences at once. They stand side by side: each band has a row of `columns`
+    /// blocks. Multiply them by `scale` before.
     #[inline(always)]
     pub(crate) fn whiten_rows<V: Vectors>(&self, v: V, columns: usize, values: &mut [f32x8]) {
         for column in 0..columns {
@@ -279,8 +279,7 @@ impl Whitening {
     }
 }
 
-/// Arithmetic that the compiler inlines as a whole, so that it compiles it for each kind of
-/// processor.
+/// A computation that we compile once for each kind of processor. The compiler inlines all of it.
 pub(crate) trait Task {
     type Result;
 
@@ -288,7 +287,7 @@ pub(crate) trait Task {
     fn run<V: Vectors>(self, vectors: V) -> Self::Result;
 }
 
-/// Vectors of a kind of processor. If you hold such a value, this processor has them.
+/// Vectors of a kind of processor. A value of this type exists only if the processor has them.
 pub(crate) trait Vectors: Copy {
     type Eight: Eight;
 

@@ -24,7 +24,7 @@ const VERSION: u32 = 3;
 pub struct BookSet {
     /// Places of the pigments in the book's list of names.
     pub pigments: Vec<u8>,
-    /// Shares of these pigments, sum 1.
+    /// Indices of the pigments in [`Book::pigments`], rising.
     pub shares: Vec<f32>,
 }
 
@@ -44,7 +44,7 @@ pub struct BookEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SetFrequency {
-    /// Places of the pigments in the book's list of names.
+    /// Indices of the pigments in [`Book::pigments`], rising.
     pub pigments: Vec<u8>,
     /// Mean probability of the set over the pixels of the survey.
     pub part: f32,
@@ -139,13 +139,14 @@ impl Book {
     }
 }
 
-/// We take sets from this many entries of the book.
+/// For each pixel we take the pigment sets of this many entries of the book, the nearest ones.
 const NEIGHBOURS: usize = 4;
-/// We try at most this many of these sets.
+/// We try at most this many sets of the nearest entries.
 const PROPOSED: usize = 8;
-/// Gauss-Newton steps of each of these sets.
+/// Gauss-Newton steps of each set that we try.
 const STEPS: usize = 1;
-/// A set explains a pixel up to this chi-square, relative to the nearest entry's.
+/// A set of the book explains a pixel if its chi-square is at most this many times the greatest of
+/// the nearest entries, or at most the survey's usual one.
 const WORSE: f32 = 1.2;
 
 /// A book that is ready for mapping.
@@ -157,7 +158,7 @@ pub struct OpenBook {
     sets: Vec<SetFit>,
     chi2: Vec<f32>,
     usual_chi2: f32,
-    /// Search that knows the palette of the survey.
+    /// Search with the palette of the survey.
     engine: Engine,
 }
 
@@ -206,7 +207,7 @@ impl OpenBook {
     /// Returns whether the book explained the pixel.
     pub(crate) fn find(&self, folded: &Folded, scratch: &mut Scratch) -> bool {
         let engine = &self.engine;
-        let near = self.nearest.find::<NEIGHBOURS>(&folded.point);
+        let near = self.nearest.find::<NEIGHBOURS>(&folded.projected);
         scratch.found.clear();
         let mut usual = self.usual_chi2;
         // The best sets of all neighbours come before the second-best of any.
@@ -237,14 +238,15 @@ impl OpenBook {
         engine.sort(&folded.pixel, &mut scratch.found);
         let explained = scratch.found.first().is_some_and(|best| best.chi2 <= usual);
         if !explained {
-            let place = engine.table.nearest(&folded.point);
+            let place = engine.table.nearest(&folded.projected);
             engine.search(&folded.pixel, place, scratch);
         }
         explained
     }
 }
 
-/// A band of a scan can have these reflectances. Others show raw counts, percent or a wrong white.
+/// Reflectances that a band of a scan can have. Other values show raw counts, percent or a wrong
+/// white.
 const REFLECTANCES: std::ops::RangeInclusive<f32> = -0.2..=1.5;
 
 /// Everything that does not change from pixel to pixel.
@@ -260,7 +262,8 @@ pub(crate) struct Prepared {
     ends: Vec<usize>,
     terms: Vec<(u32, f32)>,
     ground: Option<BareGround>,
-    /// Pigments by place. Pigments that the bands cannot tell apart stand together.
+    /// Groups of pigments that the bands cannot tell apart, as indices. Every other pigment is a
+    /// group by itself.
     pub(crate) entries: Vec<Vec<usize>>,
 }
 
@@ -268,7 +271,8 @@ pub(crate) struct Prepared {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Folded {
     pub(crate) pixel: Pixel,
-    pub(crate) point: Point,
+    /// Its coordinates by [`Projection`](crate::search::Projection), to find similar spectra.
+    pub(crate) projected: Point,
 }
 
 impl Prepared {
@@ -341,7 +345,7 @@ impl Prepared {
         if self.ground.as_ref().is_some_and(|ground| ground.explains(folded)) {
             return Err(Mask::Ground);
         }
-        let point = self.engine.table.projection.of(folded);
-        Ok(Folded { pixel: self.engine.films.pixel(&self.engine.noise, folded), point })
+        let projected = self.engine.table.projection.of(folded);
+        Ok(Folded { pixel: self.engine.films.pixel(&self.engine.noise, folded), projected })
     }
 }

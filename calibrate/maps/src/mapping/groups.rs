@@ -10,7 +10,7 @@ use crate::pixel_maps::{BlockMaps, MapError, Mask};
 use crate::search::Engine;
 use crate::search::set_fit::{NEGLIGIBLE, Scores, SetFit};
 
-/// We compare films with these parts of a companion's optical strength.
+/// We compare films in which a companion has these parts of the optical strength.
 const COMPANION_PARTS: [f64; 3] = [0.2, 0.5, 0.8];
 /// Gauss-Newton steps of a comparison.
 const STEPS: usize = 6;
@@ -18,7 +18,7 @@ const STEPS: usize = 6;
 /// group. Pigments that you cannot tell apart at all have 0.5.
 pub const ALIKE: f64 = 0.12;
 
-/// For each pair, the mean probability of taking one pigment for the other.
+/// For each pair of pigments, the probability of taking one for the other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Confusion {
     count: usize,
@@ -26,11 +26,12 @@ pub struct Confusion {
 }
 
 impl Confusion {
-    /// Mean probability, 0 to 0.5, of taking pigment `a` for pigment `b` or the other way round. We
-    /// take the mean over films of one of them with each other pigment.
+    /// Probability, 0 to 0.5, of taking pigment `a` for pigment `b` or the other way round. For
+    /// each direction we take the lower quartile over films of one pigment, alone and with each
+    /// other pigment. The result is the mean of both directions.
     ///
     /// # Panics
-    /// If `a` or `b` is not the place of a pigment.
+    /// If `a` or `b` is not the index of a pigment.
     #[must_use]
     pub fn of(&self, a: usize, b: usize) -> f64 {
         self.of_pair[a * self.count + b]
@@ -54,8 +55,8 @@ impl Confusion {
         Self { count, of_pair }
     }
 
-    /// Groups of two pigments or more, each as rising places. We join the two most alike first, as
-    /// long as the mean over all pairs of a group stays at [`ALIKE`] or above.
+    /// Groups of two pigments or more, each as rising indices. We join the two most alike groups first,
+    /// as long as the mean over all pairs between them is [`ALIKE`] or above.
     #[must_use]
     pub fn groups(&self) -> Vec<Vec<usize>> {
         let mut groups: Vec<Vec<usize>> = (0..self.count).map(|p| vec![p]).collect();
@@ -82,7 +83,8 @@ impl Confusion {
     }
 }
 
-/// Mean probability of taking `a` for `b` in films of `a`, alone and with each other pigment.
+/// Probability of taking `a` for `b`: the lower quartile over films of `a`, alone and with each
+/// other pigment.
 fn taken_for(engine: &Engine, paints: &Paints, a: usize, b: usize) -> f64 {
     let mut found = vec![probability(engine, paints, &[(a, 1.0)], &[(b, 1.0)])];
     for other in (0..paints.count()).filter(|other| ![a, b].contains(other)) {
@@ -99,7 +101,7 @@ fn taken_for(engine: &Engine, paints: &Paints, a: usize, b: usize) -> f64 {
     found[found.len() / 4]
 }
 
-/// Probability that you take the film `truth` for the best film of the pigments of `start`.
+/// Probability of taking the film `truth` for the nearest film of the pigments of `start`.
 fn probability(
     engine: &Engine,
     paints: &Paints,
@@ -193,19 +195,20 @@ pub(crate) fn columns(
     Ok(columns)
 }
 
-/// Numbers of one pixel for each column of the map.
+/// Results for one pixel. Lists have a number for each column of the map.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Told {
+pub(crate) struct PixelResult {
     pub(crate) share: Vec<f64>,
     pub(crate) share_sd: Vec<f64>,
     pub(crate) presence: Vec<f64>,
     pub(crate) chi2: f64,
     pub(crate) rms: f64,
-    /// The best set with other columns than the best of all, as bits.
+    /// Columns of the second-best set, as bits: the best set with other columns than the best of
+    /// all. If there is none, this is 0.
     pub(crate) second: u64,
 }
 
-impl Told {
+impl PixelResult {
     pub(crate) fn new(columns: usize) -> Self {
         Self {
             share: vec![0.0; columns],
@@ -303,7 +306,7 @@ impl Told {
 const STRENGTH_STEPS: usize = 12;
 /// Part of a normal distribution within one standard deviation.
 const WITHIN: f64 = 0.6827;
-/// We divide a measured reflectance by at least this predicted one.
+/// Least predicted reflectance by which we divide a measured one.
 const LEAST: f64 = 1e-3;
 
 /// Estimates the standard deviation of the logarithm of a paint's strength. We fit each mixture in

@@ -14,7 +14,7 @@ use crate::pixel_maps::{BlockMaps, MapError, Mask};
 use crate::search::Scratch;
 use crate::search::set_fit::SetFit;
 use book::{Book, Folded, OpenBook, Prepared};
-use groups::{Column, Confusion, Told, columns, strength_sd};
+use groups::{Column, Confusion, PixelResult, columns, strength_sd};
 use survey::{survey, survey_step};
 
 /// Gauss-Newton steps when a trial fits the true pigments.
@@ -102,7 +102,7 @@ impl Mapper {
         &self.prepared.paints.names
     }
 
-    /// How likely you take each pigment for another, by places in [`Mapper::pigments`].
+    /// How likely you take each pigment for another. Pigments are indices in [`Mapper::pigments`].
     #[must_use]
     pub fn confusion(&self) -> Confusion {
         Confusion::new(&self.prepared.engine, &self.prepared.paints)
@@ -134,8 +134,9 @@ impl Mapper {
         &self.identity
     }
 
-    /// Surveys pixels of a scan: `spectra` holds the reflectances of pixel after pixel, 0 to 1, all bands of
-    /// each. Every k-th pixel is searched whole, so that about 20,000 are. `task` counts them.
+    /// Surveys pixels of a scan. `spectra` holds the reflectances pixel after pixel, 0 to 1, all
+    /// bands of each. For about 20,000 pixels at equal distances we search all sets. `task` counts
+    /// these pixels.
     ///
     /// # Errors
     /// [`MapError::Length`] for a broken pixel, [`MapError::NothingToSurvey`] if no pixel can be mapped,
@@ -223,20 +224,20 @@ impl Mapper {
         Ok(Some(set))
     }
 
-    /// Searches every pixel whole, without a survey. This is slow. Use it to see how much a survey
-    /// saves.
+    /// Searches all sets for every pixel, without a survey. This is slow. Use it to see how much a
+    /// survey saves.
     ///
     /// # Errors
     /// [`MapError::Length`] for a broken pixel.
     pub fn search(&self, spectra: &[f32]) -> Result<BlockMaps, MapError> {
         let engine = &self.prepared.engine;
         self.map_with(spectra, &[], |folded, scratch| {
-            let place = engine.table.nearest(&folded.point);
+            let place = engine.table.nearest(&folded.projected);
             engine.search(&folded.pixel, place, scratch);
         })
     }
 
-    /// Compares the best set of a whole search with the true pigments of each pixel, after refining
+    /// Compares the best set of a full search with the true pigments of each pixel, after refining
     /// their shares. You get `None` for pixels that we cannot map or that hold other pigments.
     pub(crate) fn gaps_to_truth(
         &self,
@@ -256,7 +257,7 @@ impl Mapper {
                     })
                     .collect::<Option<_>>()?;
                 let set = SetFit::of_parts(&parts)?;
-                let nearest = engine.table.nearest(&folded.point);
+                let nearest = engine.table.nearest(&folded.projected);
                 engine.search(&folded.pixel, nearest, scratch);
                 let truth = engine.refined(&folded.pixel, set, TRUTH_STEPS);
                 let found = scratch.found.first()?;
@@ -283,8 +284,8 @@ impl Mapper {
         let engine = &self.prepared.engine;
         let parts: Vec<BlockMaps> = (pixels.par_chunks(TOGETHER).enumerate())
             .map_init(
-                || (Scratch::new(&engine.films), Told::new(self.columns.len())),
-                |(scratch, told), (number, pixels)| {
+                || (Scratch::new(&engine.films), PixelResult::new(self.columns.len())),
+                |(scratch, result), (number, pixels)| {
                     let mut maps = BlockMaps::with_capacity(pixels.len(), self.columns.len());
                     for (index, pixel) in pixels.iter().enumerate() {
                         let mask = masks.get(number * TOGETHER + index).copied();
@@ -297,11 +298,11 @@ impl Mapper {
                                 find(&folded, scratch);
                                 let pixel = &folded.pixel;
                                 let found = &scratch.found;
-                                told.sum(engine, pixel, found, &self.column_of);
-                                if told.chi2 > OUT_OF_GAMUT {
-                                    maps.push_masked(Mask::OutOfGamut, told.chi2, told.rms);
+                                result.sum(engine, pixel, found, &self.column_of);
+                                if result.chi2 > OUT_OF_GAMUT {
+                                    maps.push_masked(Mask::OutOfGamut, result.chi2, result.rms);
                                 } else {
-                                    told.push_to(&mut maps);
+                                    result.push_to(&mut maps);
                                 }
                             }
                             Err(mask) => maps.push_masked(mask, f64::NAN, f64::NAN),
@@ -338,9 +339,9 @@ pub(crate) struct Gap {
     pub(crate) is_right: bool,
 }
 
-/// Groups of pigments that are alike within twice a stated error of the library, or within the
-/// errors of left-out mixtures. If we took the stated error once, we would often take measured oils
-/// for others of their kind.
+/// Groups of pigments that are alike within twice the stated error of the library, or within the
+/// errors of left-out mixtures. If we used the stated error once, we would often take a measured
+/// oil for another of its kind.
 fn alike(
     library: &PigmentLibrary,
     wavelengths: &[f64],

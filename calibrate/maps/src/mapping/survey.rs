@@ -15,9 +15,9 @@ use crate::search::{Engine, Scratch};
 
 /// A survey searches about this many pixels.
 pub const SURVEYED: usize = 20_000;
-/// An entry keeps sets with a score up to this above the best.
+/// An entry of the book keeps the sets with a score up to this above its best one.
 const KEPT_SCORE: f32 = 9.0;
-/// An entry keeps at most this many sets.
+/// An entry of the book keeps at most this many sets.
 const KEPT_SETS: usize = 6;
 /// Distance between surveyed pixels. With 3, for example, a survey searches every third pixel.
 #[must_use]
@@ -25,8 +25,9 @@ pub fn survey_step(pixels: usize) -> usize {
     (pixels / SURVEYED).max(1)
 }
 
-/// Searches the pixels of `folded` whole, finds their palette, and fills the empty `book`. Pixels that are nearest
-/// to one film of the engine's table are one paint. `task` counts the pixels.
+/// Searches all sets for each pixel of `folded`, finds the palette, and fills the empty `book`.
+/// Pixels with the same nearest film in the engine's table count as one paint. `task` counts the
+/// pixels.
 pub(crate) fn survey(
     prepared: &Prepared,
     mut book: Book,
@@ -41,7 +42,7 @@ pub(crate) fn survey(
             || Scratch::new(&engine.films),
             |scratch: &mut Scratch, folded: &Folded| {
                 task.check()?;
-                let place = engine.table.nearest(&folded.point);
+                let place = engine.table.nearest(&folded.projected);
                 engine.search(&folded.pixel, place, scratch);
                 steps.step();
                 let best = scratch.found.first().map_or(0.0, |set| set.score);
@@ -71,7 +72,7 @@ pub(crate) fn survey(
     book.sets.sort_by(|a, b| b.part.total_cmp(&a.part).then(a.pigments.cmp(&b.pigments)));
     book.entries = (found.iter().zip(folded))
         .map(|(sets, folded)| BookEntry {
-            point: folded.point.to_vec(),
+            point: folded.projected.to_vec(),
             chi2: sets.first().map_or(0.0, |set| set.chi2),
             sets: sets.iter().map(of_fit).collect(),
         })
@@ -105,7 +106,7 @@ fn excess(engine: &Engine, found: &[Vec<SetFit>]) -> f32 {
     values.get(values.len() / 2).map_or(1.0, |median| median.max(1.0))
 }
 
-/// 95th percentile of chi-square.
+/// 95th percentile of the chi-square of the best sets.
 fn usual(found: &[Vec<SetFit>]) -> f32 {
     let mut values: Vec<f32> = found.iter().filter_map(|sets| Some(sets.first()?.chi2)).collect();
     values.sort_by(f32::total_cmp);
@@ -127,20 +128,20 @@ fn frequencies(found: &[Vec<SetFit>]) -> BTreeMap<u32, f64> {
     parts
 }
 
-/// A pigment is more likely than not in the palette if the score rises by this mean without it, in
-/// the paints that need it most. We chose it of 4 to 18 on simulated paintings.
+/// The probability that a pigment is in the palette is one half if the score rises by this without
+/// it, on average over the paints that need it most. We tried 4 to 18 on simulated paintings.
 const NEEDED: f32 = 14.0;
-/// If a scan has many paints, we take the mean over this many to see how much they need a pigment,
-/// because one of many may be off by chance.
+/// If a scan has many paints, we average over this many of them, the ones that need a pigment most.
+/// A single one of many may be off by chance.
 const PAINTS: usize = 2;
-/// From this number of paints on, a scan has many.
+/// A scan with at least this many paints has many.
 const MANY: usize = 16;
 
 /// Probability of each pigment to be in the palette.
 ///
 /// Pass the sets of each surveyed pixel as `found`, the best first. `paints` holds a number for
 /// each pixel. Pixels with the same number are one paint, because they share the errors of the
-/// library. `entries` are the pigments by place, with pigments that look alike together. Such
+/// library. Each of `entries` lists the indices of pigments that look alike. Such
 /// pigments are one entry of the palette and share its probability, as far as the paints do not
 /// tell them apart. `excess` is the factor, 1 or more, by which the errors of the survey exceed the
 /// ones that scores expect. If it is so great that no paint can need a pigment, each pigment has
@@ -198,7 +199,7 @@ struct Survey {
     sets: Vec<Vec<(u64, f32)>>,
     paints: Vec<usize>,
     sizes: Vec<f32>,
-    /// We count this part of a difference of scores.
+    /// Factor on differences of scores: 1 / `excess` of [`palette`].
     counted: f32,
 }
 
@@ -228,8 +229,8 @@ impl Survey {
         }
     }
 
-    /// How much the score rises if `palette` loses each of `parts`, in the paints that need it
-    /// most.
+    /// For each of `parts`, how much the score rises if `palette` loses it, in the paints that need
+    /// it most.
     fn needs(&self, palette: u64, parts: &[u64]) -> Vec<f32> {
         let mut rises = vec![vec![0.0; self.sizes.len()]; parts.len()];
         for (sets, &paint) in self.sets.iter().zip(&self.paints) {

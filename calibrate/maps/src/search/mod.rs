@@ -15,23 +15,27 @@ use crate::films::whitening::{Spectrum, WhiteningNoise};
 use set_fit::{Scores, SetFit};
 use triples::{Marks, Quadratic};
 
-/// We keep this many linearised sets of one, two, three and four pigments.
+/// We keep this many of the best linearised sets of one, two, three and four pigments.
 const KEPT: [usize; 4] = [6, 20, 24, 8];
-/// We extend this many sets of three by each other pigment.
+/// To find sets of four, we extend this many sets of three by every further pigment.
 const BEAM: usize = 8;
-/// We refine this many sets in measured reflectance, first about the nearest film of the table,
-/// then about the best of these sets.
+/// We refine this many sets in measured reflectance: first sets that we linearised about the
+/// nearest film of the table, then sets that we linearised about the best of the first ones.
 const REFINED: [usize; 2] = [32, 24];
 /// Gauss-Newton steps: of each set, of a set that may be among the best, and of the best one at the
 /// end.
 const STEPS: [usize; 3] = [1, 2, 3];
-/// We stop refining a set if its score after the first step is above the best by this.
+/// We stop refining a set if its score after the first step exceeds the best score by this, times
+/// [`Scores::steepest`].
 const HOPELESS: f32 = 12.0;
-/// Penalty of a pigment among linearised sets, when we do not yet know what its share costs.
+/// Penalty of each pigment in linearised sets. It stands for the price of exact shares, which we
+/// know only after refining.
 const SHORTLIST_PENALTY: f32 = 6.0;
-/// We do not refine a linearised set if its score is above the best by this.
+/// We do not refine a linearised set if its score exceeds the best score by this, times
+/// [`Scores::steepest`].
 const FAR: f32 = 30.0;
-/// We skip sets of three from this chi-square on, relative to the best pair.
+/// We skip sets of three if their chi-square exceeds this many times the best of one or two
+/// pigments, plus [`FAR`].
 const WORSE: f64 = 1.5;
 /// Everything that a search needs, except the pixel.
 #[derive(Debug, Clone)]
@@ -73,13 +77,14 @@ impl Scratch {
 }
 
 impl Engine {
-    /// The engine for a scan if its palette holds the pigments with these probabilities.
+    /// The engine for a scan with the palette `palette`, which holds the probability of each
+    /// pigment.
     pub(crate) fn with_palette(&self, palette: &[f32]) -> Self {
         Self { scores: self.scores.with_palette(palette), ..self.clone() }
     }
 
-    /// Searches all sets, beginning at the film `place` of the table. You find the sets in
-    /// `scratch.found`, the best first.
+    /// Searches all sets. It starts from the film with the index `place` in the table. You find the
+    /// sets in `scratch.found`, the best first.
     pub(crate) fn search(&self, pixel: &Pixel, place: usize, scratch: &mut Scratch) {
         scratch.found.clear();
         scratch.least = f32::INFINITY;
@@ -229,14 +234,14 @@ fn keep(list: &mut Vec<SetFit>, most: usize, set: SetFit) {
     list[place] = set;
 }
 
-/// Ratios of a pair, evenly spaced in their logarithm.
+/// Number of films of each pair in the table. The logarithms of their ratios are evenly spaced.
 const RATIOS: i32 = 13;
-/// The logarithm of a ratio reaches this far to each side of the middle.
+/// The logarithms of the ratios of a pair reach this far to each side of the middle ratio.
 const GREATEST: f64 = 5.0;
-/// We shift the middle towards the weaker pigment by at most this logarithm.
+/// We shift the middle ratio towards the weaker pigment. Its logarithm changes by at most this.
 const SHIFT: f64 = 2.0;
 
-/// Films about which we linearise pixels and whiten differences.
+/// Films about which we linearise a pixel first.
 #[derive(Debug, Clone)]
 pub(crate) struct Table {
     /// Internal reflectance and 1/S of each film.
@@ -270,7 +275,7 @@ impl Table {
         }
     }
 
-    /// Place of the film that is nearest to a projected pixel.
+    /// Index of the film that is nearest to a projected pixel.
     pub(crate) fn nearest(&self, point: &Point) -> usize {
         let [(_, place)] = self.nearest.find::<1>(point);
         place as usize
@@ -366,20 +371,20 @@ impl Projection {
     }
 }
 
-/// A point has this many coordinates.
+/// Number of coordinates of a point.
 pub(crate) const DIMENSIONS: usize = 8;
 const LEAF: usize = 16;
 
-/// A point in the space of the tree.
+/// A spectrum in the coordinates of [`Projection`].
 pub(crate) type Point = [f32; DIMENSIONS];
 
 /// A k-d tree of points.
 #[derive(Debug, Clone)]
 pub(crate) struct Nearest {
     points: Vec<Point>,
-    /// Place of each sorted point in the original list.
+    /// Index of each sorted point in the original list.
     places: Vec<u32>,
-    /// Splits of the ranges, in the order of a walk from the root.
+    /// Nodes of the tree in depth-first order.
     nodes: Vec<Node>,
 }
 
@@ -403,9 +408,9 @@ impl Nearest {
         Self { points, places: order, nodes }
     }
 
-    /// Places and squared distances of the `K` nearest points, the nearest first. If two are
-    /// equally near, the smaller place comes first. If there are fewer points, the rest of the
-    /// places is `u32::MAX`.
+    /// Squared distances and indices of the `K` nearest points, the nearest first. If two are
+    /// equally near, the smaller index comes first. If there are fewer points, the remaining
+    /// indices are `u32::MAX`.
     pub(crate) fn find<const K: usize>(&self, point: &Point) -> [(f32, u32); K] {
         let mut best = [(f32::INFINITY, u32::MAX); K];
         if !self.nodes.is_empty() {

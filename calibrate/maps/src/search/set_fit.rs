@@ -13,7 +13,7 @@ use crate::films::film::{Difference, Films, MOST_IN_SET, Pixel};
 /// A set of one to four pigments with shares that fit a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct SetFit {
-    /// Places of the pigments, rising, with `u8::MAX` beyond the last.
+    /// Indices of the pigments, rising, with `u8::MAX` beyond the last.
     pub(crate) members: [u8; MOST_IN_SET],
     pub(crate) count: u8,
     /// Shares of the members, sum 1.
@@ -53,7 +53,7 @@ impl SetFit {
         })
     }
 
-    /// The set as one number.
+    /// The pigments of the set, packed into one number.
     pub(crate) fn key(&self) -> u32 {
         u32::from_be_bytes(self.members)
     }
@@ -126,8 +126,8 @@ impl SetFit {
         found
     }
 
-    /// Copy after one full step. We let a share fall to a tenth at most, so that the step stays on
-    /// the simplex.
+    /// Copy with the shares after one full Gauss-Newton step. We let a share fall to a tenth at
+    /// most, so that the step stays on the simplex.
     fn stepped(&self, difference: &Difference) -> Self {
         let mut next = *self;
         let step = match inverse(difference, self.len()) {
@@ -169,9 +169,9 @@ impl SetFit {
 const FREE_SHARE: f64 = 1.0 / 12.0;
 
 impl Difference {
-    /// -2 ln of the fraction of all shares of `count` pigments that agree with the pixel. This is
-    /// the price that a set pays if its shares must be exact. Variances are `excess` times the
-    /// curvature's.
+    /// -2 ln of the fraction of all possible shares of `count` pigments that agree with the pixel.
+    /// This is the price of a set with exact shares. We multiply the variances that follow from the
+    /// curvature by `excess`.
     pub(crate) fn exactness(&self, count: usize, excess: f64) -> f64 {
         let last = count - 1;
         let mut left = [[0.0; MOST_IN_SET]; MOST_IN_SET];
@@ -288,21 +288,20 @@ const FURTHER: f32 = 2.0 * std::f32::consts::LN_2;
 #[derive(Debug, Clone)]
 pub(crate) struct Scores {
     bands: usize,
-    /// Additions to the score by number of pigments.
+    /// Additions to the score of a set by its number of pigments, one to four.
     of_count: [f32; 4],
-    /// Additions to the score by pigment, from the palette of a survey. This is empty before a
-    /// survey.
+    /// Additions to the score by pigment, from the palette of a survey. Before a survey, all are 0.
     of_pigment: Vec<f32>,
-    /// A pigment outside the palette of a survey must save this chi-square.
+    /// Amount by which a pigment outside the palette of a survey must lower chi-square.
     penalty: f64,
     /// Degrees of freedom of the residuals' distribution, infinite for a normal one.
     tail: f64,
 }
 
 impl Scores {
-    /// Scores before a survey, for pixels of `bands` and sets of `pigments`. Each pigment must save
-    /// the chi-square `penalty`. `tail` are the degrees of freedom of the residuals' distribution,
-    /// infinite for a normal one.
+    /// Scores before a survey, for pixels of `bands` and sets of `pigments`. Each pigment must
+    /// lower chi-square by `penalty`. `tail` are the degrees of freedom of the residuals'
+    /// distribution, infinite for a normal one.
     pub(crate) fn new((pigments, bands): (usize, usize), penalty: f64, tail: f64) -> Self {
         Self {
             bands,
@@ -340,9 +339,10 @@ impl Scores {
         (-0.5 / TEMPERATURE * f64::from(above)).exp()
     }
 
-    /// The scores of a scan if its palette holds the pigments with these probabilities. A pigment
-    /// outside the palette pays for this and pays the penalty. A pigment inside does not pay the
-    /// penalty, which only guards against pigments that are not there.
+    /// The scores for a scan with the palette `palette`, which holds the probability of each
+    /// pigment. The less likely a pigment is, the more it adds to the score, and the more of the
+    /// penalty it pays. A pigment that is surely in the palette does not pay the penalty, which
+    /// only guards against pigments that are not there.
     pub(crate) fn with_palette(&self, palette: &[f32]) -> Self {
         let size: f64 = palette.iter().map(|p| f64::from(*p)).sum();
         Self {
@@ -358,8 +358,8 @@ impl Scores {
         }
     }
 
-    /// Additions to the score by number of pigments. We mix up to four of `pigments`, and each must
-    /// save `penalty`.
+    /// Additions to the score by number of pigments. Sets hold up to four of `pigments`, and each
+    /// must lower chi-square by `penalty`.
     fn of_count(pigments: f64, penalty: f64) -> [f32; 4] {
         let mut sets = 1.0;
         std::array::from_fn(|size| {
@@ -389,7 +389,7 @@ impl Scores {
         (scale * (f64::from(chi2.max(0.0)) / self.tail).ln_1p()) as f32
     }
 
-    /// Greatest change of the score by chi-square.
+    /// Greatest slope of the score over chi-square.
     pub(crate) fn steepest(&self) -> f32 {
         if self.tail.is_infinite() {
             return 1.0;
@@ -397,7 +397,7 @@ impl Scores {
         ((self.tail + self.bands as f64) / self.tail) as f32
     }
 
-    /// How many times the variance of a pixel's errors is the usual one.
+    /// Ratio of the variance of a pixel's errors to the usual variance.
     pub(crate) fn excess(&self, chi2: f32) -> f64 {
         if self.tail.is_infinite() {
             return 1.0;

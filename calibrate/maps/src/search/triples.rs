@@ -15,15 +15,16 @@ use super::set_fit::SetFit;
 use crate::films::film::{MOST_IN_SET, Work};
 use crate::films::whitening::{Eight, LANES, Task, Vectors, by_vectors};
 
-/// Differences of all pigments from one pigment `a`. They span the plane of shares with sum 1.
+/// A pair of pigments, `a` and `b`, in the search of sets of three. In the space of rows, their
+/// mixtures lie on the line through both.
 #[derive(Debug, Clone, Copy, Default)]
 struct Line {
-    /// Square of the difference of pigment `b`, and the inverse of this square.
+    /// Square of the distance from `a` to `b`, and its inverse.
     square: f64,
     inverse: f64,
-    /// Product of this difference with the pixel's.
+    /// Scalar product of the differences of `b` and of the pixel from `a`.
     to_b: f64,
-    /// Least sum of squares of the two pigments with shares of any sign.
+    /// Least sum of squares of a mixture of both, with shares of any sign.
     of_pair: f64,
 }
 
@@ -31,7 +32,7 @@ struct Line {
 #[derive(Debug)]
 pub(crate) struct Marks {
     lines: Vec<Line>,
-    /// A bit for each third pigment of a pair, by the second one and by block.
+    /// For each second pigment and block, a bit for each third pigment.
     lanes: Vec<u32>,
 }
 
@@ -60,8 +61,8 @@ impl<F: FnMut([usize; 3], [f64; 3], f64) -> f64> Task for Triples<'_, F> {
 
 impl Quadratic {
     /// Calls `found` for each set of three pigments with best shares above 0 and a sum of squares
-    /// below a limit. It gets the places, the shares and the sum. The limit is `limit` at first,
-    /// then whatever `found` returned last.
+    /// below a limit. `found` gets the indices, the shares and the sum. The limit is `limit` at
+    /// first, then whatever `found` returned last.
     pub(crate) fn triples(
         &self,
         limit: f64,
@@ -158,7 +159,7 @@ impl Quadratic {
     }
 }
 
-/// Products of the rows of pigments, by place.
+/// Products of the rows of all pairs of pigments, from [`Work`].
 #[derive(Debug, Clone)]
 pub(crate) struct Quadratic {
     pub(super) count: usize,
@@ -170,7 +171,7 @@ pub(crate) struct Quadratic {
     pub(super) rows: Vec<f32x8>,
     /// Products of each pigment with itself, in lanes.
     pub(super) own: Vec<f32x8>,
-    /// We divide the rows by these sizes, and the shares of a set too.
+    /// Numbers by which we divided the rows. The shares of a set must be divided by them too.
     sizes: Vec<f64>,
 }
 
@@ -187,7 +188,7 @@ impl Quadratic {
         }
     }
 
-    /// Takes over the products in `work`.
+    /// Copies the products from `work`.
     pub(crate) fn read(&mut self, work: &Work) {
         self.rows.copy_from_slice(&work.products);
         for (block, own) in self.own.iter_mut().enumerate() {
@@ -211,7 +212,7 @@ impl Quadratic {
         self.products[a * self.count + b]
     }
 
-    /// Makes a set from the parts `parts` of the divided rows.
+    /// Makes a set. `parts` are its shares of the divided rows.
     pub(crate) fn fit<const N: usize>(
         &self,
         members: [usize; N],
@@ -231,7 +232,8 @@ impl Quadratic {
         SetFit::new([a], [1.0], self.at(a, a) as f32)
     }
 
-    /// Shares of two pigments with the least sum of squares, or `None` if a share is 0 or less.
+    /// The share of the first of two pigments that gives the least sum of squares, and this sum.
+    /// You get `None` if a share is 0 or less.
     #[inline(always)]
     pub(crate) fn pair(&self, a: usize, b: usize) -> Option<(f64, f64)> {
         let aa = self.at(a, a);
@@ -243,7 +245,8 @@ impl Quadratic {
         (to_a > 0.0 && to_b > 0.0).then_some((share, bb - share * to_a))
     }
 
-    /// Shares of a set with the least sum of squares, or `None` if a share is 0 or less.
+    /// The set of these pigments with the shares of least sum of squares, or `None` if a share is 0
+    /// or less.
     pub(crate) fn set<const N: usize>(&self, members: [usize; N]) -> Option<SetFit> {
         // The last share is 1 less the others.
         let last = members[N - 1];

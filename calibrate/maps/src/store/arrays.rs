@@ -203,7 +203,7 @@ impl fmt::Display for Shard {
     }
 }
 
-/// How we divide one axis.
+/// How we divide one axis into shards and chunks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Axis {
     pub(crate) length: usize,
@@ -231,7 +231,7 @@ impl Axis {
     }
 }
 
-/// How we divide the maps.
+/// How we divide the maps into shards and chunks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Tiles {
     pub(crate) down: Axis,

@@ -271,7 +271,7 @@ fn documents(about: &MapsAbout, tiles: Tiles) -> Vec<(String, Value)> {
     documents
 }
 
-/// Neighbouring chunks of one array that we are filling.
+/// A row of chunks of one array that we are filling, and the shard that they go to.
 #[derive(Debug)]
 struct Row {
     array: MapArray,
@@ -367,7 +367,7 @@ impl ShardWriter<'_> {
         });
     }
 
-    /// Packs the row `down` of chunks.
+    /// Packs the row of chunks with the index `down`.
     fn pack(&mut self, down: usize) -> Result<(), StoreError> {
         let across = self.store.tiles().across.chunks;
         let results: Vec<std::io::Result<()>> = self

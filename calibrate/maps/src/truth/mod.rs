@@ -32,8 +32,8 @@ pub struct ComparisonRow {
     pub mapped: f64,
     /// Presence and shares of the mapped pixels.
     pub scores: Scores,
-    /// Part of the shares, of pigments that the map finds, within one standard deviation of the
-    /// truth. We leave out pixels of one pigment alone.
+    /// Part of the shares within one standard deviation of the truth. We count the pigments that
+    /// the map finds, but leave out pixels of one pigment alone.
     pub within_sd: f64,
     /// Share of the mapped pixels with a chi-square of [`CHI2_RISEN`] or more.
     pub chi2_risen: f64,
@@ -88,7 +88,7 @@ fn part(value: f64, of: f64) -> f64 {
     if of > 0.0 { value / of } else { 0.0 }
 }
 
-/// Rows of the table: name, and the pixels that belong to it.
+/// Rows of the table: name, classes of pixels, and their tone. `None` stands for any tone.
 const KINDS: [(&str, &[PaintClass], Option<usize>); 8] = [
     (
         "all paint",

@@ -23,7 +23,7 @@ pub struct TruthParts {
 }
 
 impl TruthParts {
-    /// Numbers of a pixel.
+    /// Number of values of a pixel.
     #[must_use]
     pub fn count(&self) -> usize {
         self.pigments + self.layers + 1
@@ -98,7 +98,8 @@ const THIN: f64 = 0.05;
 const BARE: f64 = 0.95;
 /// A layer counts as seen alone if it has this part of all paint.
 const ALONE: f64 = 0.95;
-/// A pixel lies at an edge from this share error between it and its blurred neighbourhood on.
+/// A pixel is at an edge if the blur changes its shares by more than this (half the sum of absolute
+/// differences).
 const EDGE: f64 = 0.1;
 
 /// Kind of a pixel by the paint that you see there.
@@ -113,7 +114,7 @@ pub enum PaintClass {
     Thin = 2,
     /// The ground shows by 95 % or more.
     Bare = 3,
-    /// The blur of the camera joins paints of other shares: an edge.
+    /// The blur of the camera mixes paints of different shares: an edge.
     Edge = 4,
 }
 

@@ -70,7 +70,7 @@ impl EffectiveQuadrature {
     }
 }
 
-/// Greatest absolute value of every weight, as in [`Quadrature::library`].
+/// Greatest absolute value of a weight. `fitted.rs` has the same limit.
 const LARGEST_WEIGHT: f64 = 1e3;
 /// Greatest change of the logarithm of K or S.
 const LARGEST_CHANGE: f64 = 6.0;

@@ -42,8 +42,8 @@ pub const CASES: &[Case] = &[
     ("fill", fill),
 ];
 
-/// Highest cell at the edge relative to the film, and how much of the last load left the canvas and
-/// the brush.
+/// Paint at the edge of the canvas: the highest cell near the edge relative to the film, and the
+/// paint that left canvas and brush, relative to one load.
 fn edge(bench: &Bench) -> CaseReport {
     let mut figures = Vec::new();
     let mut panels = Vec::new();

@@ -268,7 +268,7 @@ fn ridge(bench: &Bench) -> (f64, Easel) {
     (crest(&easel.heights()) / before, easel)
 }
 
-/// A clean flat once through a heap.
+/// Paint that a clean flat takes up when it passes through a heap once.
 pub(super) fn pick_up(bench: &Bench) -> CaseReport {
     let mut easel =
         Easel::new(bench, bench.cell_mm, (60.0, 24.0), GroundKind::Panel, |x: f64, y: f64| {

@@ -46,7 +46,7 @@ fn done(arguments: &[&str]) -> Run {
 const SMALL: [&str; 8] =
     ["--width", "64", "--seconds", "0.5", "--set", "grid.cell=0.2", "--set", "picture.samples=1"];
 
-/// Pours paint before the middle of the first picture.
+/// Pours 150 mm3 of paint near the middle of the first picture.
 const POUR: [&str; 2] = ["--pour", "0.45,0.6,150"];
 
 fn pixels(path: impl AsRef<Path>) -> RgbImage {
@@ -344,7 +344,7 @@ fn a_scene_turned_inside_out_is_painted_as_well() {
     assert!(own > 20 && (own / 2..own * 2).contains(&found), "{own} {found}");
 }
 
-/// Five frames, unless the camera has its own number.
+/// A frame rate of 8 Hz: five frames in half a second, unless the camera has its own number.
 const RATE: [&str; 2] = ["--rate", "8"];
 
 /// Paints a still and a film of `subject` with these options of its camera, and again with only the

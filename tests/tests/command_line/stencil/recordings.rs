@@ -28,7 +28,7 @@ const PATIENCE: Duration = Duration::from_secs(120);
 /// Size of the pictures in pixels.
 const SIZE: [usize; 2] = [161, 113];
 
-/// A session of the studio, with its last reports.
+/// A session of the studio, with the state, recording, picture and painting that it reported last.
 struct Session {
     worker: VolumeWorker,
     woken: Receiver<()>,
@@ -81,7 +81,8 @@ impl Session {
         self.state.as_ref().unwrap()
     }
 
-    /// Turns the camera by some degrees as a hand does: its numbers have more digits than a file.
+    /// Turns the camera by some degrees as a hand does. Its numbers have more digits than a file
+    /// stores.
     fn orbit(&self, turned_deg: f32) {
         let home = self.state().framed;
         let (sin, cos) = turned_deg.to_radians().sin_cos();

@@ -125,7 +125,7 @@ fn refuse_other_kinds(fields: &Fields) -> Result<(), CubeError> {
     Ok(())
 }
 
-/// Whether one of the [`QUANTITY_KEYS`] holds `word`.
+/// Whether the text of one of the [`QUANTITY_KEYS`] contains `word`.
 fn says(fields: &Fields, word: &str) -> Result<bool, CubeError> {
     for key in QUANTITY_KEYS {
         if fields.text(key)?.is_some_and(|text| text.to_lowercase().contains(word)) {
@@ -249,7 +249,7 @@ struct Field {
     line: usize,
 }
 
-/// Keys and values of a header. You find a key whatever its case.
+/// Keys and values of a header. The case of a key does not matter.
 #[derive(Debug)]
 pub(crate) struct Fields {
     path: PathBuf,
@@ -415,7 +415,7 @@ impl Fields {
 }
 
 impl CubeError {
-    /// Moves the error to another line.
+    /// Changes the line number of an error about a key.
     fn at(self, at: usize) -> Self {
         match self {
             Self::Key { path, key, problem, way_out, .. } => {
