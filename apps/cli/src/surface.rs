@@ -19,8 +19,8 @@ enum SpecularName {
 /// Surface reflection of a film: Saunderson's k1 and k2, and whether readings include the specular part.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct SurfaceOptions {
-    /// Surface reflection as K1,K2, or none [default: 0.03,0.6, k1 lower if a reading is below it;
-    /// for absolute amounts k1 = 0 and the k2 that predicts best]
+    /// Surface reflection as K1,K2, or none [default: 0.03,0.6, with a smaller k1 if a reading is below
+    /// 0.03; in a fit of absolute amounts k1 = 0 and the k2 that predicts best]
     #[arg(long, value_name = "K1,K2")]
     saunderson: Option<String>,
     /// Whether the readings include the specular reflection

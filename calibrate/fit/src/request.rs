@@ -36,8 +36,8 @@ pub struct FitRequest {
     pub amounts: AmountKind,
     /// The white whose S is 1 [default: the pigment called white that occurs in most samples]
     pub reference: Option<String>,
-    /// Surface reflection as K1,K2, or none [default: 0.03,0.6, k1 lower if a reading is below it;
-    /// for absolute amounts k1 = 0 and the k2 that predicts best]
+    /// Surface reflection as K1,K2, or none [default: 0.03,0.6, with a smaller k1 if a reading is below
+    /// 0.03; in a fit of absolute amounts k1 = 0 and the k2 that predicts best]
     #[serde(serialize_with = "write_surface", deserialize_with = "read_surface")]
     #[schemars(schema_with = "surface_schema")]
     pub surface: Option<Surface>,
