@@ -85,7 +85,8 @@ impl Task {
         Self { cancellation, ..self }
     }
 
-    /// A task without an observer that ends with this one. Use this for work inside a stage.
+    /// A task without an observer, which is cancelled together with this one. Use this for work inside
+    /// a stage.
     #[must_use]
     pub fn quiet(&self) -> Self {
         Self::default().until(self.cancellation.clone())

@@ -86,7 +86,7 @@ pub enum KeySymbol {
     Dots,
     /// A filled square, as a bar is.
     Patch,
-    /// A square of as many translucent bands ([`Mark::band`]) over each other.
+    /// A square of this many translucent bands ([`Mark::band`]) over each other.
     Bands(u8),
 }
 

@@ -246,8 +246,8 @@ pub struct Warning {
     pub recipes: Vec<(String, String)>,
 }
 
-/// Endings of the files `figures/NAME.ENDING` of each figure, to which the page links. If there are none, it holds the
-/// numbers itself.
+/// Endings of the files `figures/NAME.ENDING` of each figure, to which the page links. Without endings,
+/// the page holds the numbers of its figures itself.
 type Endings<'a> = &'a [&'a str];
 
 #[must_use]

@@ -126,7 +126,7 @@ impl ReportRequest {
 #[derive(Debug)]
 pub struct PreparedReport<'a> {
     subject: Subject<'a>,
-    /// Readings of which we leave out the mixtures.
+    /// Readings for leaving out each mixture in turn. `None` if this is not wanted or not possible.
     left_out: Option<Comparable>,
     wavelengths: &'a RangeInclusive<usize>,
 }

@@ -52,7 +52,7 @@ fn is_shell_script(path: &str) -> bool {
     first.is_some_and(|bytes| shells.iter().any(|shell| bytes.starts_with(shell)))
 }
 
-/// Checks licences, sources and doubles of dependencies. Advisories need a network. If you have
+/// Checks dependencies: licences, sources and duplicate versions. Advisories need a network. If you have
 /// one, call `cargo deny check advisories`.
 fn deny() -> Outcome {
     if !is_installed("cargo-deny") {

@@ -113,9 +113,9 @@ fn own_copy(folder: &Path) -> Outcome<PathBuf> {
     Ok(copy)
 }
 
-/// Starts two rows of work beside the tests, which leave a core idle at times. The first row builds
-/// the wheel (with what the tests compiled), the pages and the reference, because cargo builds for
-/// one command at a time. The second checks.
+/// Starts two rows of parts beside the tests, because tests leave a core idle at times. The first row
+/// builds the wheel (with crates that the tests compiled), the pages and the reference one after the
+/// other, because cargo allows only one build at a time. The second row runs checks in Python.
 fn begin_rows(program: &Path, folder: &Path, environment: &Environment) -> Outcome<(Row, Row)> {
     let (is_built, built) = mpsc::channel();
     let builds = Row::begin("builds", program, folder, environment, move |row| {

@@ -11,7 +11,7 @@ const SMALL: usize = 60;
 /// Doc comments that begin so are hard to read alone.
 const RIDDLES: [&str; 3] = ["What ", "The same", "As "];
 
-/// Something that we count by its places.
+/// Something that we count, with a list of the places where it occurs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Mark {
     /// Folders with more than 20 sources.

@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::figures::{Figures, Mark};
 
-/// How far a figure may go.
+/// The most or the least that a figure may be.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Limit {
     /// The most that is allowed.
@@ -27,7 +27,7 @@ impl fmt::Display for Limit {
 pub struct Rule {
     /// Name of the figure, as it stands in the table.
     pub name: &'static str,
-    /// How far it may go.
+    /// The most or the least that the figure may be.
     pub limit: Limit,
     /// The mark to pass to `cargo xtask figures --list` if you want to see the places.
     pub mark: Option<Mark>,

@@ -122,7 +122,8 @@ pub(crate) fn is_installed(program: &str) -> bool {
 
 pub(crate) type Environment = Vec<(&'static str, OsString)>;
 
-/// Parts that run one after the other beside the main line. They only use time that it leaves.
+/// Parts that run one after the other beside the tests. They have a low priority, so that they only
+/// use time that the tests leave.
 #[derive(Debug)]
 pub(crate) struct Row {
     name: &'static str,

@@ -1,5 +1,5 @@
-//! Options of the cameras that see a subject, of an animation, and of a timelapse of a script, with
-//! the files of the timelapse.
+//! Options for the cameras that see a subject, for an animation, and for a timelapse of a script. This
+//! file also opens and writes the files of a timelapse.
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -19,26 +19,26 @@ use crate::progress::Progress;
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Subject")]
 pub(crate) struct SubjectOptions {
-    /// Width of the picture in pixels [default: a photograph's own, its longer side at most 1600;
-    /// of a mesh 1000]
+    /// Width of the picture in pixels [default: for a photograph its own width, but its longer side at
+    /// most 1600; for a mesh 1000]
     #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u64).range(LEAST_PX..=MOST_PX))]
     width: Option<u64>,
     /// Height of the picture of a mesh in pixels [default: three quarters of the width]
     #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u64).range(LEAST_PX..=MOST_PX))]
     height: Option<u64>,
-    /// Camera that shows all of a mesh: degrees around it and above the horizon, and the angle of
-    /// view, such as `30,20,30`; or a file of keyframes (.toml). For a picture, if its camera may
-    /// move: degrees to the right and upwards
+    /// Camera. For a mesh: degrees around it, degrees above the horizon, and angle of view, such as
+    /// `30,20,30` (the whole mesh is seen), or a file of keyframes (.toml). For a picture (not in
+    /// `watercolor`, in `painterly` only with its depth): degrees to the right and upwards
     #[arg(long, value_name = "DEG,DEG[,DEG]|FILE", allow_hyphen_values = true)]
     camera: Option<String>,
-    /// Turn the camera around a mesh in this number of frames; in front of a picture, if its camera
-    /// may move, it swings
+    /// Number of frames in which the camera turns once around a mesh, or swings once in front of a
+    /// picture
     #[arg(long, value_name = "FRAMES", value_parser = clap::value_parser!(u64).range(1..=MOST_FRAMES))]
     turntable: Option<u64>,
 }
 
 impl SubjectOptions {
-    /// Size and cameras of these options.
+    /// The size and the cameras that these options ask for.
     pub(crate) fn request(&self) -> ViewRequest {
         ViewRequest {
             width: self.width,
@@ -65,7 +65,7 @@ pub(crate) struct AnimationOptions {
 }
 
 impl AnimationOptions {
-    /// The animation of these options.
+    /// The animation that these options ask for.
     pub(crate) fn request(&self) -> AnimationRequest {
         AnimationRequest {
             animation: self.animation.clone(),
@@ -89,7 +89,7 @@ pub(crate) struct TimelapseOptions {
     /// [default: FILE.frames beside the timelapse]
     #[arg(long, value_name = "FOLDER", conflicts_with = "from")]
     timelapse_frames: Option<PathBuf>,
-    /// Frames in all, spread over the time that strokes on the canvas take
+    /// Number of frames, spread evenly over the time that strokes on the canvas take
     #[arg(long, value_name = "N", default_value_t = 250)]
     timelapse_count: usize,
     /// Take a frame after every N actions that change the canvas
@@ -103,7 +103,7 @@ pub(crate) struct TimelapseOptions {
         conflicts_with_all = ["timelapse_count", "timelapse_every"]
     )]
     timelapse_seconds: Option<f64>,
-    /// Longest side of a frame in pixels; a canvas with fewer cells keeps them
+    /// Longest side of a frame in pixels; a canvas with fewer cells gets one pixel for each cell
     #[arg(long, value_name = "PX", default_value_t = 960)]
     timelapse_size: usize,
     /// Frames per second

@@ -50,7 +50,7 @@ pub(crate) enum Task {
 #[derive(Debug, Args)]
 #[command(hide = true)]
 pub(crate) struct Completions {
-    /// The shell that completes
+    /// Shell to write the completions for
     shell: Shell,
 }
 
@@ -85,7 +85,7 @@ impl Man {
     }
 }
 
-/// Verbs by what they are for, in the order of the work.
+/// Headings of the help with the verbs below each, in the order in which you need them.
 const GROUPS: [(&str, &[&str]); 5] = [
     ("Measure and calibrate", &["plan", "color", "light", "fit", "validate", "report"]),
     ("Mix and match", &["mix", "match", "correct", "library", "quadrature"]),

@@ -50,7 +50,7 @@ pub(crate) struct Console<'a> {
 }
 
 impl Console<'_> {
-    /// Writer of results: of remarks once a file was streamed.
+    /// Writer of results. After a file was streamed to it, this is the writer of remarks.
     fn results(&mut self) -> &mut dyn Write {
         if self.streamed { &mut *self.err } else { &mut *self.out }
     }
@@ -146,8 +146,8 @@ impl Console<'_> {
     }
 }
 
-/// Calls `call`, and keeps its lines on standard error from the terminal. With `--verbose` we print
-/// them afterwards, line by line.
+/// Calls `call` and catches the lines that it prints on standard error. With `--verbose` we print them
+/// afterwards, one by one.
 pub(crate) fn without_noise<T>(console: &mut Console<'_>, call: impl FnOnce() -> T) -> Result<T> {
     if !console.screen.owns_errors {
         return Ok(call());
@@ -195,7 +195,7 @@ mod caught {
 
 #[cfg(not(unix))]
 mod caught {
-    /// The result of `call`.
+    /// The result of `call` and an empty text, because we catch standard error on Unix only.
     pub(super) fn caught<T>(call: impl FnOnce() -> T) -> (T, String) {
         (call(), String::new())
     }

@@ -7,7 +7,7 @@ use spectra::color::{Lab, Rgb, RgbSpace};
 use crate::console::Console;
 use crate::failure::{Failure, Result};
 
-/// Names of the columns of lists that are colours.
+/// Keys of JSON that hold a colour as a list, each with names for its columns.
 const COLORS: [(&str, &[&str]); 5] = [
     ("xyz", &["X", "Y", "Z"]),
     ("xy", &["x", "y"]),
@@ -17,9 +17,9 @@ const COLORS: [(&str, &[&str]); 5] = [
 ];
 
 impl Console<'_> {
-    /// Prints objects as CSV, one row each, with the columns of all of them in the order in which
-    /// they come. Objects within become columns of their own, e.g. `outer_inner`. Colours become a
-    /// column for each value.
+    /// Prints objects as CSV, one row each. Every key of any object becomes a column, in the order in
+    /// which keys first occur. Keys of an inner object become columns such as `outer_inner`. Colours
+    /// become a column for each value.
     pub(crate) fn csv_rows(&mut self, rows: &[Value]) -> Result<()> {
         let rows: Vec<Vec<(String, String)>> = rows.iter().map(cells).collect();
         let mut headings: Vec<&str> = Vec::new();
@@ -117,7 +117,8 @@ impl Console<'_> {
     }
 }
 
-/// Colours of a table: codes that are marked, and the note below that explains the mark.
+/// Cells with colours in a table. This remembers whether a colour was marked, so that a note below the
+/// table can explain the mark.
 #[derive(Debug)]
 pub(crate) struct TableColors {
     space: RgbSpace,

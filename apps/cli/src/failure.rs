@@ -40,13 +40,14 @@ impl Failure {
         Self::with_hint(message, hint, USAGE)
     }
 
-    /// The failure for a value that a request does not take, with the `option` of its key: exit status 2.
+    /// The failure for a value that a request does not take: exit status 2. `option` finds the option of a
+    /// key.
     pub(crate) fn of_request(error: &RequestError, option: impl Fn(&str) -> String) -> Self {
         let messages = vec![error.message(option)];
         Self { messages, hint: error.hint(), status: USAGE, pipe_closed: false }
     }
 
-    /// The failure as one of the command, whatever its cause: for the value of an option.
+    /// Sets exit status 2, whatever the cause. Use this if the value of an option caused the failure.
     pub(crate) fn of_option(self) -> Self {
         Self { status: USAGE, ..self }
     }
@@ -110,7 +111,7 @@ impl<E: Explain + 'static> From<E> for Failure {
     }
 }
 
-/// The message of an error, in which settings of pictures are options.
+/// The message of an error. Settings of pictures are named as options, e.g. `--turntable`.
 fn message_of(error: &(dyn Error + 'static)) -> String {
     match error.downcast_ref() {
         Some(PictureError::Setting(error)) => error.message(option_of),

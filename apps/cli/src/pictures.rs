@@ -152,8 +152,8 @@ impl OpenExports {
     }
 }
 
-/// Does long work behind a bar, and prints what it notes between two pictures of the bar. If printing fails, the
-/// work ends early.
+/// Does long work behind a bar. Notes of the work are printed while the bar is hidden for a moment. If
+/// printing fails, the work ends early.
 pub(crate) fn heard<T>(
     console: &mut Console<'_>,
     work: impl FnOnce(&Task, &mut Listener<'_>) -> Result<T>,
@@ -196,7 +196,7 @@ pub(crate) fn painted(
     heard(console, |task, listener| Ok(job.paint(compute, task, listener)?))
 }
 
-/// The number of frames of an animation as a summary tells it, empty without one.
+/// Words for a summary on the frames of an animation, e.g. `, 25 frames`. Empty without an animation.
 pub(crate) fn frames_text(outcome: &PictureOutcome) -> String {
     let Some(frames) = outcome.frames else { return String::new() };
     let found = match outcome.frames_found {
@@ -206,7 +206,7 @@ pub(crate) fn frames_text(outcome: &PictureOutcome) -> String {
     format!(", {}{found}", counted(frames, "frame"))
 }
 
-/// Opens the output of a picture to look at.
+/// Opens the output of a picture (.png or .exr).
 pub(crate) fn picture_output(path: Option<&Path>, inputs: &[PathBuf]) -> Result<Option<Output>> {
     path.map(|path| Output::with_ending(path, &["png", "exr"], inputs)).transpose()
 }

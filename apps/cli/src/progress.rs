@@ -11,7 +11,7 @@ use crate::console::Console;
 
 /// Time after which a bar or spinner is shown.
 const DELAY: Duration = Duration::from_secs(1);
-/// Time between two pictures of a bar or spinner.
+/// Time between two updates of a bar or spinner.
 const TICK: Duration = Duration::from_millis(200);
 
 /// Shows `bar` on a terminal after one second. Set the returned flag when the work is done, so that
@@ -56,13 +56,13 @@ impl Progress {
         Self { bar, done }
     }
 
-    /// A task that moves the bar with its steps. `before` steps of the bar are done when it begins.
+    /// A task that moves the bar by one for each of its steps, from `before` on.
     pub(crate) fn task(&self, before: usize) -> Task {
         let bar = self.bar.clone();
         Task::observed(move |progress| bar.set_position(before as u64 + progress.done))
     }
 
-    /// A task that counts steps of its own. The bar shows the share of them that is done.
+    /// A task with any number of steps. The bar shows the share of these steps that is done.
     pub(crate) fn task_of_any_steps(&self) -> Task {
         let bar = self.bar.clone();
         let length = bar.length().unwrap_or(0);
@@ -83,7 +83,7 @@ impl Progress {
     }
 }
 
-/// Does `work`, behind a spinner where it takes long. The work prints nothing.
+/// Does `work`, and shows a spinner if it takes longer than a second. `work` must not print.
 pub(crate) fn waited<T>(label: &'static str, console: &Console<'_>, work: impl FnOnce() -> T) -> T {
     let _waiting = Waiting::new(label, console.shows_progress());
     work()
@@ -151,7 +151,7 @@ impl Following {
     }
 }
 
-/// Does long work behind a spinner or a bar. The work prints nothing.
+/// Does long work behind a spinner or a bar. `work` must not print.
 pub(crate) fn followed<T>(console: &Console<'_>, work: impl FnOnce(&Task) -> T) -> T {
     let following = Following::new(console);
     work(&following.task())

@@ -69,7 +69,8 @@ impl ReadingOptions {
         self.referencing.files()
     }
 
-    /// The options with a white reading, for verbs that also take it by another option.
+    /// The options with `white` as white reading, unless they name one. For verbs that also take it by
+    /// another option.
     pub(crate) fn with_white_reading(&self, white: Option<String>) -> Self {
         Self { referencing: self.referencing.with_white_reading(white), ..self.clone() }
     }
@@ -203,7 +204,7 @@ pub(crate) struct ReferencingOptions {
     /// give a dark reading for each.
     #[arg(long, alias = "dark", value_name = "FILE")]
     dark_reading: Vec<String>,
-    /// The white's own reflectance, FILE, FILE#NAME or a fraction [default: 1]
+    /// Reflectance of the white itself: FILE, FILE#NAME or a fraction [default: 1]
     #[arg(long, value_name = "FILE|0.99")]
     tile: Option<String>,
     /// Largest count of the detector, such as 65535 [default: guessed]
@@ -212,13 +213,14 @@ pub(crate) struct ReferencingOptions {
     /// maximum.
     #[arg(long, value_name = "COUNT")]
     full_scale: Option<f64>,
-    /// Minimum light of the white, as a fraction of its peak [default: 0.01]
+    /// Least signal of the white at every wavelength, as a fraction of its peak [default: 0.01]
     #[arg(long, value_name = "SHARE")]
     least_light: Option<f64>,
 }
 
 impl ReferencingOptions {
-    /// The options with a white reading, for verbs that also take it by another option.
+    /// The options with `white` as white reading, unless they name one. For verbs that also take it by
+    /// another option.
     pub(crate) fn with_white_reading(&self, white: Option<String>) -> Self {
         Self { white_reading: self.white_reading.clone().or(white), ..self.clone() }
     }
@@ -245,7 +247,7 @@ impl ReferencingOptions {
         self.reference_files().map_or_else(Vec::new, |files| files.paths())
     }
 
-    /// Reference files for the library to open, `None` without a white.
+    /// Reference files for `calibrate` to open. `None` without a white reading.
     pub(crate) fn reference_files(&self) -> Option<ReferenceFiles> {
         let mut files = ReferenceFiles::new(self.white_reading.as_ref()?);
         files.dark = match self.dark_reading.as_slice() {

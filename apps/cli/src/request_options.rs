@@ -17,7 +17,7 @@ use crate::failure::{Failure, Result};
 
 /// A request that a verb takes as options.
 pub(crate) trait CommandLine: DeserializeOwned + JsonSchema {
-    /// The option of `key` with what the request does not say: another name, or a name for its value.
+    /// Adds to the `option` of `key` everything that the request does not know, e.g. a name for its value.
     fn adapted(key: &str, option: Arg) -> Arg;
 
     /// Whether `key` is an option. The verb sets the other keys in its own way.
@@ -26,7 +26,7 @@ pub(crate) trait CommandLine: DeserializeOwned + JsonSchema {
     }
 }
 
-/// The options of the request `T` that a command gives. Keys that hold further keys are not among them.
+/// The keys of the request `T` as options of a command. A key that holds further keys is not an option.
 #[derive(Debug, Clone)]
 pub(crate) struct RequestOptions<T> {
     given: Map<String, Value>,
@@ -144,10 +144,10 @@ enum Kind {
     Flag,
     /// One of some words, each with its help.
     Words(Vec<(String, String)>),
-    /// A whole number in the format of the schema.
+    /// A whole number, with its format in the schema, e.g. `uint64`.
     Whole(String),
     Number,
-    /// A text, which may be one of a number.
+    /// A text. Some keys also take a number.
     Text {
         may_be_number: bool,
     },

@@ -121,7 +121,7 @@ pub(crate) fn painted<T: Technique>(
     followed(console, |task| painter.paint(view, task))
 }
 
-/// Writes the steps to a picture into a folder.
+/// Writes the intermediate stages of a picture into a folder.
 pub(crate) fn write_stages<T: Technique>(
     painter: &mut T,
     view: T::View<'_>,

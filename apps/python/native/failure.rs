@@ -30,7 +30,7 @@ impl Exception {
         }
     }
 
-    /// The exception for `error`: its message with the causes, its hint, and the place of a cell.
+    /// The exception for `error`: its message with the causes, and its hint.
     pub(crate) fn of(self, py: Python<'_>, error: &dyn Explain) -> PyErr {
         let hint = error.hint().map(|hint| hint_text(&hint));
         self.with(py, error.fault(), &message(error), hint.as_deref())

@@ -27,7 +27,7 @@ impl Fit {
         Library(Arc::new(self.fit.library.clone()))
     }
 
-    /// Choices that were made, and what the films and equations show.
+    /// Remarks on the settings that the fit chose, and on findings about films and equations.
     #[getter]
     fn remarks(&self) -> Vec<RemarkTuple> {
         remarks(&self.fit.remarks)

@@ -75,7 +75,7 @@ impl Library {
         self.0.pigments.iter().map(|pigment| pigment.name.clone()).collect()
     }
 
-    /// Place of the pigment that `name` names.
+    /// Index of the pigment that `name` names.
     fn find(&self, py: Python<'_>, name: &str) -> PyResult<usize> {
         self.0.find(name).map(|id| id.index()).raised(py, Exception::Recipe)
     }

@@ -17,7 +17,8 @@ use crate::failure::{Exception, Raised, RemarkTuple, remarks};
 #[pyclass(frozen, module = "impasto._native")]
 pub(crate) struct Readings(pub(crate) Arc<calibrate::Readings>);
 
-/// A white, darks and a tile, if there is one. Counts are measured against them.
+/// Files of a white reading and of dark readings, and the reflectance of the white if it is known. They
+/// convert counts to reflectance.
 type References = (String, Vec<String>, Option<String>);
 
 #[pymethods]

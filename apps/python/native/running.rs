@@ -12,7 +12,7 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// How often we check for signals.
+/// Time between two checks for signals.
 const LOOK: Duration = Duration::from_millis(50);
 
 const THREAD: &str = "impasto-work";
@@ -58,9 +58,9 @@ pub(crate) fn run_with<T: Send + 'static>(
     waited?.map_err(|_| PyRuntimeError::new_err("a defect of impasto: please report it"))
 }
 
-/// Starts a thread for `work`. If the process has only one thread for shared work
-/// (`RAYON_NUM_THREADS=1`), this thread does its shared work itself: one thread would otherwise
-/// have to do it for all.
+/// Starts a thread for `work`. If rayon has only one thread (`RAYON_NUM_THREADS=1`), the new thread
+/// does the parallel parts of `work` itself. Otherwise all calls would wait for this one thread of
+/// rayon.
 fn started(work: impl FnOnce() + Send + 'static) -> std::io::Result<JoinHandle<()>> {
     let thread = || std::thread::Builder::new().name(THREAD.to_owned());
     if rayon::current_num_threads() > 1 {
@@ -77,13 +77,12 @@ fn started(work: impl FnOnce() + Send + 'static) -> std::io::Result<JoinHandle<(
 }
 
 thread_local! {
-    /// Pool with the calling thread as its only one, or `None` if it could not be made.
+    /// Pool of rayon with the calling thread as its only thread, or `None` if it could not be made.
     static OWN: OnceCell<Option<ThreadPool>> = const { OnceCell::new() };
 }
 
-/// Does short `work` while other threads of Python run. If the process has only one thread for
-/// shared work, this uses the calling thread, since one thread would otherwise have to do it for
-/// all.
+/// Does short `work` while other threads of Python run. If rayon has only one thread, the calling
+/// thread does the parallel parts of `work` itself, so that it need not wait for other calls.
 pub(crate) fn beside<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> T {
     py.detach(|| {
         if rayon::current_num_threads() == 1 && rayon::current_thread_index().is_none() {

@@ -21,8 +21,8 @@ use crate::running::{run, run_with};
 /// Wavelengths of a ground in nm, and its reflectance at each.
 type GroundCurve = (Vec<f64>, Vec<f64>);
 
-/// Settings of a map. Residuals are an object of Python, and a spectrum of the ground may hold numbers that
-/// JSON has not.
+/// Settings of a map. Residuals and a measured ground come beside the request, because JSON can hold
+/// neither an object of Python nor a number such as NaN.
 fn settings(
     mut request: MapRequest,
     residuals: Option<&Residuals>,
@@ -47,7 +47,7 @@ pub(crate) struct Survey(Arc<SurveyedScan>);
 
 #[pymethods]
 impl Survey {
-    /// Surveys a scan by a request (JSON), or takes the `book` of an earlier survey (JSON).
+    /// Surveys a scan as `request` (JSON) says, or takes over the `book` (JSON) of an earlier survey.
     #[new]
     #[pyo3(signature = (cube, library, request, residuals, ground, book, progress))]
     #[expect(clippy::too_many_arguments, reason = "the public face has them by name")]
@@ -104,7 +104,7 @@ impl Survey {
         Ok(shards.collect())
     }
 
-    /// Maps all shards of the maps at `path` that are not finished, on all cores.
+    /// Maps all unfinished shards of the maps at `path`, on all cores.
     fn map(
         &self,
         py: Python<'_>,
@@ -123,8 +123,8 @@ impl Survey {
         mapped.raised(py, Exception::Other).map(drop)
     }
 
-    /// Maps the shards of the maps at `path` that are in `places` and not finished, one after
-    /// another, and returns the number of their pixels.
+    /// Maps the unfinished shards among the indices `places` of the maps at `path`, one after another.
+    /// Returns the number of mapped pixels.
     fn map_shards(&self, py: Python<'_>, path: PathBuf, places: Vec<usize>) -> PyResult<u64> {
         let scan = Arc::clone(&self.0);
         let store = py.detach(|| scan.store(path, StoreMode::Resume));

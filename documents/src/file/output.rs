@@ -129,8 +129,8 @@ pub fn is_stream(path: &Path) -> bool {
     path == Path::new(STANDARD_INPUT)
 }
 
-/// A folder for outputs, checked to be writable. It is made when the first of them is written, so
-/// that a failure before leaves nothing behind.
+/// A folder for outputs, checked to be writable. We make it only when the first output is written, so
+/// that an earlier failure leaves nothing behind.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OutputFolder {
     folder: PathBuf,

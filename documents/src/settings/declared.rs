@@ -437,8 +437,8 @@ pub struct OutOfRange {
     pub most: f64,
 }
 
-/// The first number of `settings` that lies outside of its range, for errors of their own words. [`check`]
-/// finds every fault of a file.
+/// The first number of `settings` that lies outside of its range. Use this to write your own error.
+/// [`check`] also finds other faults.
 #[must_use]
 pub fn out_of_range<T: Table>(settings: &T) -> Option<OutOfRange> {
     let all = rows::<T>().into_iter().zip(settings.numbers());

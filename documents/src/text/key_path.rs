@@ -28,25 +28,25 @@ pub enum KeyStep {
 pub struct KeyPath(pub Vec<KeyStep>);
 
 impl KeyPath {
-    /// The path with these keys. Join them by dots, e.g. `edges.strength`.
+    /// The path of keys that are joined by dots, e.g. `edges.strength`.
     #[must_use]
     pub fn of(keys: &str) -> Self {
         Self(keys.split('.').map(|key| KeyStep::Key(key.to_owned())).collect())
     }
 
-    /// The value of `key` in the table at this path.
+    /// The path of `key` in the table at this path.
     #[must_use]
     pub fn key(&self, key: &str) -> Self {
         self.with(KeyStep::Key(key.to_owned()))
     }
 
-    /// The entry with `index`, from 0, of the list at this path.
+    /// The path of the entry with `index`, from 0, of the list at this path.
     #[must_use]
     pub fn index(&self, index: usize) -> Self {
         self.with(KeyStep::Index(index))
     }
 
-    /// The value of `other` in the table at this path.
+    /// The path of `other` in the table at this path.
     #[must_use]
     pub fn join(&self, other: &Self) -> Self {
         Self([&self.0[..], &other.0].concat())
@@ -110,7 +110,7 @@ impl Node {
         JsonWalk { text: text.as_bytes(), at: 0 }.value()
     }
 
-    /// The span of the value of a key of the whole text.
+    /// Bytes of the value of a key at the top level.
     pub(super) fn value_span(&self, key: &str) -> Option<Range<usize>> {
         Some(self.entry(key)?.2.span.clone())
     }
@@ -261,7 +261,8 @@ impl JsonWalk<'_> {
         }
     }
 
-    /// Goes on to `wanted`, or beyond `end`. Returns whether it found it.
+    /// Moves to the next byte `wanted` and returns true. If `end` comes first, moves behind it and
+    /// returns false.
     fn skip_to(&mut self, wanted: u8, end: u8) -> bool {
         while let Some(byte) = self.byte() {
             if byte == wanted {

@@ -197,13 +197,13 @@ fn masstones(
     let mut names: Vec<((f64, f64), String)> = named.collect();
     let points: Vec<(f64, f64)> = names.iter().map(|(at, _)| *at).collect();
     let around = points.clone();
-    names.retain(|name| far(name) >= NAMED);
-    names.sort_by(|a, b| far(b).total_cmp(&far(a)));
+    names.retain(|name| chroma(name) >= NAMED);
+    names.sort_by(|a, b| chroma(b).total_cmp(&chroma(a)));
     [Mark::Dots { points, color: INK, radius: 2.2 }, Mark::Names { names, around, color: INK }]
 }
 
-/// We label chromatic pigments first, because labels of greys would overlap.
-fn far(((x, y), _): &((f64, f64), String)) -> f64 {
+/// Chroma of a masstone. We label chromatic pigments first, because labels of greys would overlap.
+fn chroma(((x, y), _): &((f64, f64), String)) -> f64 {
     x.hypot(*y)
 }
 

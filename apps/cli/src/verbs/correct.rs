@@ -1,4 +1,4 @@
-//! `impasto correct`: what to add to a pot of paint that came out beside its target.
+//! `impasto correct`: what to add to a pot of paint that missed its target colour.
 
 use calibrate::library::PigmentLibrary;
 use calibrate::matching::{Batch, ColorTarget, CorrectRequest, Corrections, Metric, TargetColor};
@@ -21,10 +21,10 @@ const NAMES: usize = 8;
 
 /// Find what to add to a batch of paint so that it matches its target
 ///
-/// The batch is the paint in the pot: what was mixed (--made) and the spectrum of a film of it that
-/// hides. Additions are searched that bring it within --tolerance of the target, those with the least
-/// paint first. The measured batch, not its recipe, is what they are mixed into, so that weighing
-/// errors and errors of the library at that colour do not matter.
+/// The batch is the paint in the pot. Give the amounts that were mixed (--made) and the measured
+/// spectrum of an opaque film. This finds additions that bring the batch within --tolerance of the
+/// target, the least paint first. It starts from the measured spectrum, not from the recipe, so that
+/// weighing errors and errors of the library at this colour do not matter.
 #[derive(Debug, Args)]
 #[command(
     override_usage = "impasto correct [OPTIONS] [LIBRARY] <TARGET> <BATCH> --made <PIGMENT=GRAMS>..."
@@ -55,7 +55,7 @@ pub(crate) struct Correct {
     /// Print JSON: target, batch, differences, and a list of corrections
     #[arg(long)]
     json: bool,
-    /// Print the corrections, a row for each pigment of one, as CSV
+    /// Print the corrections as CSV, a row for each pigment of each correction
     #[arg(long, conflicts_with = "json")]
     csv: bool,
 }
@@ -286,7 +286,7 @@ impl Report<'_> {
     }
 }
 
-/// Grams with three digits or more.
+/// Grams as text, with at least three significant digits.
 fn shown(grams: f64) -> String {
     let decimals = (2 - grams.abs().max(1e-9).log10().floor() as i32).clamp(0, 6);
     format!("{grams:.*}", usize::try_from(decimals).unwrap_or(0))

@@ -32,9 +32,9 @@ pub(crate) struct Fit {
     output: Option<PathBuf>,
     #[command(flatten)]
     provenance: RequestOptions<Provenance>,
-    /// Fit to one half of the mixtures alone: every second one, from the first (0) or the second (1)
-    /// on, with all films of one pigment. To see how far maps can be believed, paint with the library
-    /// of one half and map with the other
+    /// Fit to all films of a single pigment, but only to half of the mixtures: the first, third, fifth ..
+    /// (0), or the second, fourth .. (1). To see how far maps can be trusted, paint with the library
+    /// of one half and map with the library of the other
     #[arg(long, value_name = "0|1", value_parser = clap::value_parser!(u8).range(0..=1))]
     half: Option<u8>,
     #[command(flatten)]
@@ -113,11 +113,12 @@ impl CommandLine for Provenance {
 /// Measurement files and settings of the fit.
 #[derive(Debug, Args)]
 pub(super) struct CalibrationOptions {
-    /// Measurement files: CSV or .xlsx (columns sample, film, backing, one per pigment, then
-    /// wavelengths), or an instrument's files with --recipes
+    /// Measurement files: CSV or .xlsx (columns sample, film, backing, one for each pigment,
+    /// then wavelengths), or an instrument's files with --recipes
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Recipes of samples whose files hold none (CSV): columns sample, one per pigment
+    /// Recipes for measurement files that hold none (CSV): a column `sample`, then one column for each
+    /// pigment
     ///
     /// Joined to the readings by name. Further columns: film, backing, thickness_mm as in the
     /// measurement CSV, and `reading`, the name in the measurement file, where one sample was read
@@ -142,7 +143,7 @@ impl CalibrationOptions {
         self.files.iter().chain(&self.recipes).cloned().chain(reading.files()).collect()
     }
 
-    /// The file of a white reading by the option that named it before.
+    /// The file of a white reading, if `--white` names one, as it did in older versions.
     fn old_white_reading(&self) -> Option<String> {
         self.fit.clone().take("reference").into_iter().find(|text| is_reading(text))
     }

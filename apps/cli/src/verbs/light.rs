@@ -33,7 +33,7 @@ pub(crate) struct Light {
 
 /// Width of the columns of figures.
 const WIDTH: usize = 7;
-/// Place of R9 among the special indices.
+/// Position of R9 in the list of special indices.
 const R9: usize = 8;
 
 impl Light {

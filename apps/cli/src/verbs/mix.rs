@@ -24,8 +24,8 @@ pub(crate) struct Mix {
     /// abbreviated
     #[arg(required = true, value_name = "[LIBRARY] NAME=PARTS")]
     words: Vec<String>,
-    /// Thickness of the film; 1 is where the reference white has S d = 1 (for absolute amounts,
-    /// the amounts as given) [default: hiding]
+    /// Thickness of the film. At 1 the reference white has S d = 1; for absolute amounts, 1 means the
+    /// amounts as given [default: a film that hides; for absolute amounts 1]
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     thickness: Option<f64>,
     /// Measured reflectance of the ground: 0 to 1, white (1), black (0), or a file of
@@ -53,7 +53,7 @@ impl Mix {
         if hides && self.over.is_some() {
             return Err(Failure::usage(
                 "a film that hides shows no ground",
-                "give --over a --thickness, such as 1",
+                "add a thickness, such as --thickness 1",
             ));
         }
         let ground = self.over.as_deref().map(|text| ground(text, console)).transpose()?;

@@ -40,8 +40,8 @@ pub(crate) struct Painterly {
     /// of the brushwork, direction of strokes
     #[arg(long, value_name = "FOLDER", help_heading = "Animation")]
     exr_frames: Option<PathBuf>,
-    /// Write every step to the picture into this folder, as PNG: depth, strokes, directions and tones
-    /// of each layer, and what it paints
+    /// Write all intermediate stages of the picture into this folder, as PNG: depth, and for each layer
+    /// its strokes, directions, tones and paint
     #[arg(long, value_name = "FOLDER", help_heading = "Exports")]
     stages: Option<PathBuf>,
     /// Let strokes flow in a loop of this number of frames, seen from a camera that stands still
@@ -155,12 +155,12 @@ struct BrushworkOptions {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Subject")]
 struct FormOptions {
-    /// Directions of strokes: guides drawn as lines (.toml); or of a picture a PNG whose red (to the
-    /// right) and green (upwards) point about one half, and whose blue is the strength of flow
+    /// Directions of strokes: guides drawn as lines (.toml). For a picture also a PNG: red is the part to
+    /// the right and green the part upwards (one half is zero), blue is the strength of flow
     #[arg(long, value_name = "FILE")]
     directions: Option<PathBuf>,
-    /// Depth of a picture, which makes a relief of it, before which --camera and --turntable move:
-    /// white is near, black is far (.png, .jpg, .tif, .webp)
+    /// Depth of a picture (.png, .jpg, .tif, .webp): white is near, black is far. This gives the picture
+    /// a relief, so that --camera and --turntable can move the camera
     #[arg(long, value_name = "FILE")]
     depth: Option<PathBuf>,
 }
@@ -179,7 +179,8 @@ struct PigmentOptions {
     /// Old name of LIBRARY
     #[arg(long = "pigments", value_name = "LIBRARY", hide = true, group = "library_of_paint")]
     pigments_before: Option<PathBuf>,
-    /// Up to eight pigments for those colours, separated by commas [default: those that come nearest]
+    /// Up to eight pigments for the colours of the subject, separated by commas [default: the nearest
+    /// ones]
     #[arg(long, value_name = "PIGMENTS")]
     palette: Vec<String>,
     /// Ground: linen, paper or panel

@@ -30,8 +30,8 @@ impl CommandLine for QuadratureRequest {
 /// Choose wavelengths and weights that give XYZ under a light
 ///
 /// With a library, prints the colour error against full integration over random mixtures (films
-/// that hide, of one to four pigments) that no method was fitted to; for `effective` also over thin films on
-/// coloured grounds.
+/// that hide, of one to four pigments). No method was fitted to these mixtures. For `effective`, it also
+/// prints the error over thin films on coloured grounds.
 #[derive(Debug, Args)]
 pub(crate) struct Quadrature {
     /// The pigment library (JSON) [default: the one in IMPASTO_LIBRARY, else none]

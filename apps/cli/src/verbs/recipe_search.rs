@@ -1,8 +1,5 @@
-//! `impasto match`: finds recipes for a target colour or spectrum.
-//!
-//! Report of the recipes that `match` found: text and rows.
-//!
-//! Columns of figures in the table of recipes: differences under each light, metamerism, reflectance.
+//! `impasto match`: finds recipes for a target colour or spectrum, and prints them as text or rows. The
+//! table of recipes has columns for differences under each light, metamerism and reflectance.
 
 use calibrate::IlluminantChange;
 use calibrate::library::{AmountKind, PigmentLibrary};
@@ -27,10 +24,10 @@ use crate::surface::ground;
 /// Find recipes for a colour or a measured spectrum
 ///
 /// Every set of up to --at-most pigments is tried, and its shares are found by least squares in
-/// CIEDE2000, or in the difference of reflectance with --by spectrum. A target is `#rrggbb`, a CIELAB colour `L,a,b` (under the first light), or a file of
-/// spectra: FILE for all of them but bare cards, FILE#SAMPLE for one. Recipes that are as near as the
-/// nearest, within --tolerance, are sorted by cost if costs are given, else by the number of
-/// pigments; the others follow by distance.
+/// CIEDE2000, or in the difference of reflectance with --by spectrum. A target is `#rrggbb`, a CIELAB
+/// colour `L,a,b` (under the first light), or a file of spectra: FILE for all of them but bare cards,
+/// FILE#SAMPLE for one. Recipes within --tolerance of the nearest one count as equally near: they are
+/// sorted by cost if costs are given, else by the number of pigments. The others follow by distance.
 #[derive(Debug, Args)]
 #[command(
     override_usage = "impasto match [OPTIONS] [LIBRARY] <TARGET>...",
@@ -44,7 +41,7 @@ pub(crate) struct Match {
     #[command(flatten)]
     request: RequestOptions<MatchRequest>,
     /// Light, as in `color`, with its weight where there are several (may be repeated) [default: D65;
-    /// by spectrum, where lights only tell the differences, D65, A and FL11]
+    /// with --by spectrum D65, A and FL11, used only to print differences]
     #[arg(long, value_name = "LIGHT[=WEIGHT]")]
     illuminant: Vec<String>,
     /// Observer: 1931-2 (or 2), 1964-10 (or 10), 2015-2, 2015-10
@@ -55,7 +52,7 @@ pub(crate) struct Match {
     /// Print JSON: a list of targets, each with its recipes
     #[arg(long)]
     json: bool,
-    /// Print the recipes, a row for each pigment of one, as CSV
+    /// Print the recipes as CSV, a row for each pigment of each recipe
     #[arg(long, conflicts_with = "json")]
     csv: bool,
 }
@@ -137,7 +134,7 @@ impl Match {
         }
         if request.grams.is_some() && library.amounts == AmountKind::Absolute {
             return Err(Failure::usage(
-                "--grams shares out a mixture, but this library's amounts are absolute",
+                "--grams divides a mass by shares, but this library's amounts are absolute",
                 "leave it out: the recipe gives each amount on the library's area",
             ));
         }
@@ -181,7 +178,7 @@ pub(super) struct RecipeReport<'a> {
 }
 
 impl RecipeReport<'_> {
-    /// Encoded sRGB of `lab`, seen adapted to its light.
+    /// Encoded sRGB of `lab`, as seen by an eye that is adapted to its light.
     fn display_color(&self, lab: Lab) -> Rgb {
         // Lab is relative to its white, so any white serves for the round trip.
         let white = RgbSpace::Srgb.white();
@@ -345,7 +342,7 @@ impl RecipeReport<'_> {
 
 /// Least width of a column.
 const WIDTH: usize = 8;
-/// Between the indices, whose headings are several words.
+/// Gap between columns of metamerism indices, because their headings have several words.
 const GAP: &str = "  ";
 /// Title and headings of the difference of reflectance.
 const REFLECTANCE: [&str; 2] = ["reflectance", "rms, %"];

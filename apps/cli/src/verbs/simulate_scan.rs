@@ -18,11 +18,12 @@ use crate::progress::{Progress, waited};
 
 /// Simulate a spectral scan of a painting, and write the truth beside it
 ///
-/// The exact spectra of the painting, blurred, with noise, with a white that drifts along the scan and a
-/// surface that reflects unevenly, become an ENVI cube. The truth is a Zarr group: the shares of the pigments
-/// in the paint that is seen, each layer by what it hides of those below, blurred as the light is; the part of
-/// the ground; and the kind of each pixel: hiding, glaze, thin, bare, or an edge. The same seed gives the same
-/// bytes. `impasto map --truth` compares maps with it.
+/// The exact spectra of the painting become an ENVI cube: blurred, with noise, with a white that drifts
+/// along the scan and a surface that reflects unevenly. The truth is a Zarr group. For each pixel it
+/// holds the shares of the pigments in the visible paint (a layer counts by how much it hides the layers
+/// below), the visible part of the ground, both blurred as the light is, and the kind of the pixel:
+/// hiding, glaze, thin, bare, or an edge. The same seed gives the same bytes. `impasto map --truth`
+/// compares maps with the truth.
 #[derive(Debug, Args)]
 pub(crate) struct SimulateScan {
     /// The painting (.exr, as `impasto paint --output` writes it)
@@ -54,7 +55,7 @@ pub(crate) struct SimulateScan {
         allow_hyphen_values = true
     )]
     drift: f64,
-    /// Standard deviation of the reflection at the surface (k1) over the painting, as a fraction of it
+    /// Standard deviation of the surface reflection k1 over the painting, as a fraction of k1
     #[arg(long, value_name = "PART", default_value_t = CameraSettings::default().surface)]
     surface: f64,
     /// Seed of all random numbers
@@ -192,7 +193,7 @@ fn words(about: &Map<String, Value>) -> String {
 struct Painting<'d> {
     document: &'d Document,
     exact: &'d SpectralDocument<'d>,
-    /// Places of its pigments in the library.
+    /// Indices of its pigments in the library.
     pigments: Vec<usize>,
     parts: TruthParts,
 }

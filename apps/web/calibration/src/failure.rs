@@ -4,8 +4,8 @@ use documents::hint::{Explain, Hint};
 
 pub(crate) use told::{Result, setting};
 
-/// Where the page has each setting that a hint may name. Other settings exist only as options of
-/// the program.
+/// Settings that a hint may name, each with its control on the page. Other settings exist only as
+/// options of the program.
 const CONTROLS: [(&str, &str); 29] = [
     ("reference", "\"White\""),
     ("percent", "\"Readings are in\": percent"),

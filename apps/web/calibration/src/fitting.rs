@@ -16,7 +16,7 @@ pub struct Fit(calibrate::Fit);
 
 #[wasm_bindgen]
 impl Fit {
-    /// Fits K and S of every pigment. The page hears each stage.
+    /// Fits K and S of every pigment. Reports each stage to the page.
     #[wasm_bindgen(constructor)]
     pub fn of(readings: &Readings, request: &str) -> Result<Fit> {
         let request: FitRequest = failure::request(request)?;

@@ -75,7 +75,7 @@ impl Library {
         Ok(told.to_string())
     }
 
-    /// K and S of a pigment by its place, as JSON: wavelengths_nm, k, s and their deviations.
+    /// K and S of the pigment with index `place`, as JSON: wavelengths_nm, k, s and their deviations.
     pub fn curves(&self, place: usize) -> Result<String> {
         let pigment = self.0.pigments.get(place);
         let pigment = pigment.ok_or_else(|| setting("no such pigment", "choose another"))?;
@@ -111,7 +111,7 @@ impl Library {
         .to_string())
     }
 
-    /// The report on the library alone, as one HTML page. The page hears each step.
+    /// The report on the library alone, as one HTML page. Reports each step to the calibration page.
     pub fn report(&self, request: &str) -> Result<String> {
         self.drawn(None, request)
     }

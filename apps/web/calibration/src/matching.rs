@@ -11,7 +11,7 @@ use crate::targets::Targets;
 
 #[wasm_bindgen]
 impl Library {
-    /// Recipes for the target at `place`, as JSON with the keys of `impasto match --json`, and `remarks`.
+    /// Recipes for the target with index `place`, as JSON with the keys of `impasto match --json`, and `remarks`.
     pub fn recipes(&self, targets: &Targets, place: usize, options: &str) -> Result<String> {
         let options: MatchRequest = request(options)?;
         let target = targets.targets.get(place);

@@ -108,7 +108,7 @@ impl Decoder {
 }
 
 impl Encoding {
-    /// A decoder of pieces.
+    /// A decoder for text that arrives in pieces. It does not look for a byte order mark.
     #[must_use]
     pub fn new_decoder_without_bom_handling(&'static self) -> Decoder {
         Decoder::new(self)

@@ -3,7 +3,8 @@
 use crate::characters::Kind;
 use crate::encoding::Encoding;
 
-/// Encodings by their names: `constant, place: name, kind`.
+/// Declares encodings, one in a row: `constant, place: name, kind`. `place` is a static value, and
+/// `constant` is a reference to it.
 macro_rules! encodings {
     ($($constant:ident, $place:ident: $name:literal, $kind:ident;)*) => {
         $(

@@ -4,8 +4,8 @@ use documents::hint::Explain;
 
 pub(crate) use told::Result;
 
-/// For each setting that hints name, where the panel has it. Other settings are options of the
-/// program.
+/// Settings that a hint may name, each with its control in the panel. Other settings exist only as
+/// options of the program.
 const CONTROLS: [(&str, &str); 11] = [
     ("at_most", "\"Pigments of a pixel at most\""),
     ("palette", "\"Only these pigments\""),

@@ -54,7 +54,7 @@ impl Mapped {
     }
 }
 
-/// The JSON of the maps. If not all pixels are mapped, it includes their distance.
+/// The JSON of the maps. If only every n-th pixel is mapped, it includes n as `every`.
 fn whole(mut json: Value, every: usize) -> Value {
     if every > 1 {
         json["every"] = json!(every);
@@ -64,7 +64,7 @@ fn whole(mut json: Value, every: usize) -> Value {
 
 #[wasm_bindgen]
 impl Mapped {
-    /// Words, files and the JSON of the maps, as JSON.
+    /// Words on the maps, names of their pictures, and the JSON of `impasto map`, in one JSON object.
     pub fn about(&self) -> String {
         self.about.clone()
     }

@@ -18,7 +18,7 @@ const BLOCK_BYTES: usize = 64 << 20;
 const MOST_PIXELS: usize = 4096;
 /// Most bytes for the sums of all maps.
 const SUM_BYTES: usize = 256 << 20;
-/// Squares along the longer side of the pictures, as in the program.
+/// Pictures show pixels in squares, at most this many along the longer side, as in the program.
 const PICTURE: usize = 1600;
 
 /// A scan of the page, with the library for its maps.
@@ -55,8 +55,8 @@ impl Scan {
         self.told.clone()
     }
 
-    /// Surveys the scan with the library in the file `name`, and maps one pixel at each distance `every`,
-    /// in rows and in columns. Reports progress to the page.
+    /// Surveys the scan with the library in the file `name`, and maps every `every`-th pixel of every
+    /// `every`-th row. Reports progress to the page.
     pub fn map(
         &mut self,
         name: &str,
@@ -84,8 +84,8 @@ impl Scan {
         Ok(mapped)
     }
 
-    /// The spot of these rows and columns as JSON, as from `impasto map --spot --json`, and its
-    /// words.
+    /// The spot with these rows and columns, as JSON with the keys of a spot of `impasto map --json`, and
+    /// its text as `words`.
     pub fn spot(&self, top: usize, bottom: usize, left: usize, right: usize) -> Result<String> {
         let (Some(library), Some(scan)) = (&self.library, &self.surveyed) else {
             return Err(told::setting("no scan is mapped yet", "map one"));
@@ -98,8 +98,7 @@ impl Scan {
     }
 }
 
-/// Maps every pixel of the surveyed region, or one pixel at each distance `every`, in blocks of
-/// rows.
+/// Maps every `every`-th pixel of every `every`-th row of the surveyed region, in blocks of rows.
 fn map_all(scan: &SurveyedScan, every: usize) -> Result<OverviewSums> {
     let rows = scan.about().rows.clone();
     let columns = scan.about().columns.clone();
@@ -138,7 +137,8 @@ fn map_all(scan: &SurveyedScan, every: usize) -> Result<OverviewSums> {
     Ok(sums)
 }
 
-/// Squares along the longer side: as many as in the program if there is enough memory.
+/// Number of squares along the longer side of the pictures: at most [`PICTURE`], fewer if the sums would
+/// need too much memory.
 fn longest((height, width): (usize, usize), pigments: usize) -> usize {
     let long = height.max(width);
     let mut step = long.div_ceil(PICTURE).max(1);

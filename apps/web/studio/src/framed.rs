@@ -31,7 +31,7 @@ pub(crate) struct Framed {
     /// When the pen was set down. It is `None` while the pen is lifted.
     down_since: Option<Instant>,
     frame_done: Function,
-    /// Pictures that were shown: frames, and parts between them.
+    /// Number of pictures that were shown: frames, and parts of the canvas between frames.
     pub(crate) frames: u64,
     /// Files to open in the next frame.
     opened: Vec<PathBuf>,
@@ -114,7 +114,8 @@ impl Framed {
         self.context.request_repaint();
     }
 
-    /// Passes on what the stylus reported, if you see its stroke between frames.
+    /// Passes on the reports of the stylus if its stroke can be shown between frames. Returns whether it
+    /// can.
     pub(crate) fn take_stylus(&mut self) -> bool {
         self.studio.take_stylus(&self.context)
     }

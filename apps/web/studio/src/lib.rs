@@ -187,9 +187,8 @@ impl Page {
         self.report(PageProblem::Unreadable { name, reason }.into());
     }
 
-    /// Shows the painter a problem of the browser's storage: `denied`, `full`, `cleared`, or
-    /// another one that
-    /// `reason` describes in the browser's words.
+    /// Shows the painter a problem of the browser's storage: `denied`, `full`, `cleared`, or another
+    /// one that `reason` describes in the browser's words.
     pub fn storage_problem(&self, kind: &str, reason: String) {
         let problem = match kind {
             "denied" => PageProblem::StorageDenied,
@@ -242,10 +241,9 @@ impl Page {
     }
 
     /// Pixels that the stroke of a stylus changed since the last call or frame. Show it over the canvas
-    /// until the next frame: `left`, `top`, `width` and `height` in physical pixels, `pixels`, and
-    /// the head as
-    /// `lines`, `strokes` and `dot`. Width and height are 0 if nothing changed. This is undefined if you see
-    /// the stroke only in frames.
+    /// until the next frame: `left`, `top`, `width` and `height` in physical pixels, `pixels`, and the
+    /// brush head as `lines`, `strokes` and `dot`. Width and height are 0 if nothing changed. This is
+    /// undefined if you see the stroke only in frames.
     pub fn between(&self) -> Option<Object> {
         let mut framed = self.runner.app_mut::<Framed>()?;
         framed.between().map(|(between, density)| shown::shown(&between, density))

@@ -1,11 +1,11 @@
-//! Changes by a stroke between two frames, as an object of JavaScript.
+//! Pixels and brush head that a stroke changes between two frames, as an object of JavaScript.
 
 use js_sys::{Array, Float32Array, Object, Reflect, Uint8ClampedArray};
 use studio::app::Between;
 use studio::view::HeadLines;
 use wasm_bindgen::JsValue;
 
-/// The object that the page draws, in physical pixels: `pixels` row by row, and for the head the
+/// The object that the page draws, in physical pixels: `pixels` row by row, and for the brush head the
 /// `lines`, each a list of x and y and whether it is closed, their `strokes` as widths and colours,
 /// and the `dot`.
 pub(crate) fn shown(between: &Between, density: f32) -> Object {

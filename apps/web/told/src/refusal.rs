@@ -10,7 +10,7 @@ use wasm_bindgen::JsValue;
 /// Result of a call of a page.
 pub type Result<T> = std::result::Result<T, JsValue>;
 
-/// For each setting that a hint may name, its place on the page. Other settings exist only as
+/// Settings that a hint may name, each with its control on the page. Other settings exist only as
 /// options of the program.
 pub type Controls = [(&'static str, &'static str)];
 
@@ -62,7 +62,7 @@ pub fn refusal(error: &dyn Explain, controls: &Controls) -> JsValue {
     told(&json!({ "message": message, "causes": causes, "hint": hint, "fault": fault }))
 }
 
-/// A setting of the page that no library reads.
+/// The error of a setting that the page itself checks, because no library reads it.
 #[must_use]
 pub fn setting(message: &str, hint: &str) -> JsValue {
     told(&json!({ "message": message, "causes": [], "hint": hint, "fault": "setting" }))

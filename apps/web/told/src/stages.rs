@@ -37,7 +37,7 @@ pub fn task_in_percent(name: &'static str, all: usize) -> Task {
     })
 }
 
-/// Tells the page of defects from now on.
+/// Reports panics to the page from now on.
 #[wasm_bindgen]
 pub fn begin() {
     std::panic::set_hook(Box::new(|panic| hear_defect(&panic.to_string())));

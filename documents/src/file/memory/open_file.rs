@@ -116,7 +116,7 @@ impl File {
         self.change(|content| content.resize(bytes as usize, 0))
     }
 
-    /// Locks the file until [`File::unlock`] or its end.
+    /// Locks the file until you call [`File::unlock`] or drop it.
     pub fn try_lock(&self) -> Result<(), TryLockError> {
         let mut locked = LOCKED.lock().unwrap_or_else(PoisonError::into_inner);
         if !locked.insert(self.path.clone()) {

@@ -34,12 +34,13 @@ enum ComparedBy {
 /// Make a map of samples: one tile of each, from dark to light, that repeats without seams
 ///
 /// Each tile is put together from patches of its sample, so that the strokes of all tiles stand
-/// where those of the first tile stand (Yan, Chi, Lee and Lin 2008, section 4). Samples painted
-/// with the same strokes show the same places. Pigments and relief of the samples follow.
+/// where those of the first tile stand (Yan, Chi, Lee and Lin 2008, section 4). If the samples were
+/// painted with the same strokes, all tiles show the same places of their samples. Tiles keep the
+/// pigments and the relief of the samples.
 #[derive(Debug, Args)]
 pub(super) struct Build {
-    /// Samples (.exr, as `artmap sample` and `artmap paint` write them); of several files with the
-    /// same pigments, all together
+    /// Files of samples (.exr, as `artmap sample` and `artmap paint` write them). Several files with the
+    /// same pigments make one map
     #[arg(required = true)]
     samples: Vec<PathBuf>,
     /// Width and height of the tiles in texels, 64 to 1024
@@ -71,8 +72,8 @@ pub(super) struct Build {
     /// (.png, .exr)
     #[arg(long, value_name = "FILE")]
     sheet: Option<PathBuf>,
-    /// Write the steps into this folder, as PNG: samples; what patches are compared by (edges,
-    /// lightness, a*, b*, height); most similar patches; the levels of each tile
+    /// Write intermediate stages into this folder, as PNG: samples; the properties by which patches are
+    /// compared (edges, lightness, a*, b*, height); most similar patches; the levels of each tile
     #[arg(long, value_name = "FOLDER")]
     stages: Option<PathBuf>,
     /// Print JSON: provenance, size, spacing, pigments, settings, and of each tile name, lightness,
@@ -146,9 +147,9 @@ fn write_stages(folder: &StageFolder, stages: &[Stage], console: &mut Console<'_
 /// Check a map for tiles that do not agree, seams, and tones too close to each other
 ///
 /// A map with faults, and a file that is no map, end with exit status 1. Coherence is the
-/// correlation of the strokes with those of the first tile: 0.6 is wanted, of it or of the
-/// neighbour on the way to it. Border is the step of lightness where a tile repeats over the steps
-/// within: 1 where no seam shows.
+/// correlation of the strokes of a tile with the strokes of the first tile. It should be 0.6 or more,
+/// either with the first tile or with the neighbour on that side. Border compares the steps of
+/// lightness where copies of a tile meet with the steps inside the tile: at 1 no seam shows.
 #[derive(Debug, Args)]
 pub(super) struct Check {
     /// The map (.exr, as `artmap build` writes it)

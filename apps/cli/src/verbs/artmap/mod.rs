@@ -14,10 +14,10 @@ use crate::failure::Result;
 /// Take samples of brushwork from a painting, or let the engine paint some, and make maps of them
 ///
 /// A sample is a passage of a painting with the strokes of one tone. All samples of a file are
-/// upright (strokes run from top to bottom), of one distance of strokes, and sorted from dark to
-/// light, after Yan, Chi, Lee and Lin (2008). From an impasto painting they carry its pigments and
-/// its relief too. A map has a tile of each sample: it repeats
-/// without seams, and the strokes of all tiles stand at the same places.
+/// upright (strokes run from top to bottom), have the same distance between strokes, and are sorted
+/// from dark to light, after Yan, Chi, Lee and Lin (2008). Samples of an impasto painting keep its
+/// pigments and its relief. A map has a tile of each sample: it repeats without seams, and the
+/// strokes of all tiles stand at the same places.
 #[derive(Debug, Args)]
 pub(crate) struct Artmap {
     #[command(subcommand)]

@@ -47,7 +47,7 @@ enum ResizedBy {
 ///
 /// A mark is a scribble over a passage, which grows from there to the regions that are alike, or a
 /// rectangle. Marks are a file (.toml) or a PNG of lines on a transparent ground, as large as the
-/// picture, one opaque colour a sample. Without --marks the whole picture is one sample; --propose
+/// picture, with one opaque colour for each sample. Without --marks the whole picture is one sample; --propose
 /// writes marks to begin with.
 ///
 /// Each sample is turned until its strokes run from top to bottom, and resized until all have the
@@ -89,12 +89,12 @@ pub(super) struct Sample {
     /// Directions in which samples are resized until all have the same distance of strokes
     #[arg(long, value_enum, default_value = "uniform")]
     density: ResizedBy,
-    /// Guess the relief of a picture from its lightness, dark as deep: MM from furrow to ridge,
-    /// above 0 to 10, 0.2 is usual for oil. Light from one side and lighter paint look like relief
-    /// too
+    /// Guess the relief of a picture from its lightness: dark is deep. MM is the height from furrow to
+    /// ridge, above 0 to 10; 0.2 is usual for oil. Light from one side and lighter paint are mistaken
+    /// for relief
     #[arg(long, value_name = "MM", conflicts_with = "propose")]
     guess_relief: Option<f64>,
-    /// If a painting has more than eight pigments, count those below 1 % as the one nearest in colour
+    /// If a painting has more than eight pigments, count each below 1 % as the one nearest in colour
     #[arg(long)]
     merge_minor: bool,
     /// Print JSON: provenance, spacing, pigments, and of each sample name, size, lightness, colour,
@@ -222,7 +222,7 @@ fn remark(
         )])?;
     }
     if set.samples.len() == 1 {
-        console.remark("one sample has a single tone: mark more of them for light and dark")?;
+        console.remark("one sample has a single tone: mark several passages, from dark to light")?;
     }
     Ok(())
 }

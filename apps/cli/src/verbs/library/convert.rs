@@ -252,7 +252,8 @@ pub(super) struct Merge {
     title: Option<String>,
     #[command(flatten)]
     resampling: ResamplingOptions,
-    /// Accept pigments fitted under another surface as if it were the first's
+    /// Accept pigments that were fitted under another surface, and treat them as fitted under the
+    /// surface of the first library
     #[arg(long)]
     any_surface: bool,
     /// Confirm that the absolute amounts of all libraries have the same unit and area
@@ -260,7 +261,7 @@ pub(super) struct Merge {
     same_unit: bool,
     #[command(flatten)]
     viewing: ViewingOptions,
-    /// Print JSON: pigments, common, warnings
+    /// Print JSON: pigments (how many), reference, common (those that several libraries have), warnings
     #[arg(long)]
     json: bool,
     /// Print the pigments that several libraries have as CSV

@@ -1,10 +1,6 @@
-//! `impasto map`: which pigments of a library are where in a spectral scan.
-//!
-//! Options for how a scan is read.
-//!
-//! Text, JSON and CSV of maps beside the truth of a simulated scan.
-//!
-//! Text of a survey and its maps.
+//! `impasto map`: which pigments of a library are where in a spectral scan. This file also holds the
+//! options for how a scan is read, the text of a survey and its maps, and the text, JSON and CSV that
+//! compare maps with the truth of a simulated scan.
 
 mod page;
 
@@ -30,7 +26,7 @@ use crate::output::OutputFolder;
 use crate::progress::{Progress, Waiting};
 use crate::request_options::{CommandLine, RequestOptions};
 
-/// Squares along the longer side of the pictures.
+/// Pictures show the pixels of a scan in squares, at most this many along the longer side.
 const PICTURE: usize = 1600;
 /// Steps of the progress bar.
 const STEPS: usize = 1000;
@@ -38,10 +34,11 @@ const STEPS: usize = 1000;
 /// Map the pigments of a library in a spectral scan
 ///
 /// For every pixel you learn which pigments are there, their shares with standard deviations, and how
-/// sure that is: films that hide, mixed by two-constant Kubelka-Munk. About 20,000 pixels are searched
-/// whole (the survey); all others start from the nearest of these. Pigments that the bands of the scan
-/// cannot tell apart are mapped as one. The maps are a Zarr group that xarray opens; a run that was ended is
-/// continued by --resume. Tested on simulated scans and measured swatches only.
+/// sure that is. Paint is taken for films that hide, mixed by two-constant Kubelka-Munk. About 20,000
+/// pixels are compared with all sets of pigments (the survey). All other pixels start from the surveyed
+/// pixels most like them. Pigments that the bands of the scan cannot tell apart are mapped as one. The
+/// maps are a Zarr group that xarray opens. --resume continues a run that was interrupted. Tested on
+/// simulated scans and measured swatches only.
 #[derive(Debug, Args)]
 pub(crate) struct Map {
     /// The scan: ENVI (the .hdr or the data), a folder of a Specim camera, Zarr 3, spectral OpenEXR, or a
@@ -58,14 +55,15 @@ pub(crate) struct Map {
     /// A folder for pictures of the maps (PNG) and a page that shows them
     #[arg(long, value_name = "FOLDER", requires = "output")]
     pictures: Option<PathBuf>,
-    /// The file of a survey to use; or to write, if there is none of this name
+    /// The file of a survey: read if it exists, else written
     #[arg(long, value_name = "JSON")]
     survey: Option<PathBuf>,
     /// Compare the maps with the truth that `impasto simulate-scan` wrote: precision and recall of presence, error of
     /// the shares, by the kind of paint and its tone
     #[arg(long, value_name = "FOLDER", requires = "output")]
     truth: Option<PathBuf>,
-    /// Share from which a pigment counts as present in the truth; of smaller ones nothing is expected
+    /// Least share for a pigment to count as present in the truth; a trace with a smaller share is neither
+    /// right nor wrong to find
     #[arg(long, value_name = "0.05", requires = "truth", default_value = "0.05")]
     least_share: f64,
     #[command(flatten)]
@@ -210,7 +208,7 @@ fn failure(error: MapRequestError) -> Failure {
     }
 }
 
-/// Remark on a library about whose errors nothing is known.
+/// A remark, if the errors of the library are assumed and not measured.
 fn remark(request: &MapRequest, scan: &SurveyedScan) -> Option<Remark> {
     let assumed = request.model_error.is_none()
         && matches!(scan.mapper().model_error(), ModelError::Stated(_));
@@ -308,7 +306,7 @@ fn json(compared: &Comparison) -> Value {
     json!({ "kinds": rows(compared), "pigments": pigments.collect::<Vec<Value>>() })
 }
 
-/// Prints a line for each kind of pixels, then one for each pigment that is there or told.
+/// Prints a line for each kind of pixels, then a line for each pigment that the truth or the maps hold.
 fn print(compared: &Comparison, console: &mut Console<'_>) -> Result<()> {
     console.line(format!(
         "{:14}  {:>8}  precision  recall  share error  within sd  chi-square above {CHI2_RISEN}",
@@ -342,7 +340,7 @@ fn print(compared: &Comparison, console: &mut Console<'_>) -> Result<()> {
 /// Part of the surveyed pixels below which a pigment is not named in the text.
 const MOST_NAMED: f64 = 0.001;
 
-/// Place of a pigment in the maps.
+/// The maps, and the index of a pigment in them. `None` if the maps do not have it.
 fn place<'a>(found: &FoundColumn, mapped: Option<&'a Overview>) -> Option<(&'a Overview, usize)> {
     let overview = mapped?;
     let place = overview.pigments.iter().position(|name| *name == found.column.name)?;

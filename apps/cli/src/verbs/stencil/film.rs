@@ -35,7 +35,7 @@ pub(super) struct Film<'a> {
     pub(super) scene: &'a Scene,
     /// The script before its first step.
     pub(super) beginning: &'a Performance,
-    /// Steps of the frames.
+    /// For each frame, the step of the world that it shows.
     pub(super) steps: &'a [u64],
     pub(super) snapshots: &'a mut Snapshots,
 }
@@ -173,14 +173,14 @@ impl<'a> Stills<'a> {
     }
 }
 
-/// Frames from one snapshot to the next.
+/// Number of frames from one snapshot to the next.
 pub(super) const EVERY: usize = 50;
 /// Number of snapshots that are kept.
 const KEPT: usize = 2;
 
 /// Plays scripts. If there are snapshots of an earlier run, we continue from the newest one.
 pub(super) struct Snapshots {
-    /// Device of large worlds.
+    /// Device that computes the steps of large worlds.
     device: StepDevice,
     folder: PathBuf,
     /// Digest of everything that the frames depend on.
@@ -189,7 +189,7 @@ pub(super) struct Snapshots {
     found: Vec<Performance>,
     /// Files of snapshots, the latest written last.
     files: Vec<PathBuf>,
-    /// Seconds of the snapshot that was used first.
+    /// Time in seconds of the first snapshot that was used.
     pub(super) from_s: Option<f64>,
     /// Steps that were computed.
     pub(super) played: u64,
@@ -209,8 +209,8 @@ impl Snapshots {
         }
     }
 
-    /// Finds the snapshots of this `wish` in the folder of its frames. If some belong to another
-    /// wish or are damaged, we say so and do not use them.
+    /// Finds the snapshots with the digest `wish` in the folder of the frames. If some have another
+    /// digest or are damaged, we say so and do not use them.
     pub(super) fn find(
         folder: &Path,
         wish: String,

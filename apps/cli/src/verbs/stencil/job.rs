@@ -186,9 +186,9 @@ impl Job {
         Ok(prepared::<VolumePainter>(subject, &self.settings, console)?)
     }
 
-    /// Plays the script to the time of the single pictures. To report an impossible event before
-    /// anything is written, this first plays the script to its very last step. If an earlier run
-    /// left snapshots, it has checked this already.
+    /// Plays the script to the time of the single pictures, and returns it there. If frames are wanted,
+    /// this also plays a copy to the last step, so that it reports an impossible event before anything
+    /// is written. If an earlier run left snapshots, that run has checked this already.
     fn rehearsed(&self, has_frames: bool, snapshots: &mut Snapshots) -> Result<Performance> {
         let mut play = self.beginning.clone();
         let played = snapshots.advance(&mut play, self.times.still);
@@ -213,7 +213,8 @@ fn check_outputs(verb: &Stencil) -> Result<()> {
     Ok(())
 }
 
-/// Refuses layers of a painting without pigments, and of pictures that are none.
+/// Refuses outputs with layers of pigments if there are no pigments, or if `--show` does not show the
+/// painting.
 fn check_layers(verb: &Stencil, has_pigments: bool) -> Result<()> {
     let Some(option) = verb.outputs.layer_option() else { return Ok(()) };
     if !has_pigments {
@@ -274,7 +275,7 @@ pub(super) struct Summary {
 }
 
 impl Summary {
-    /// The world of single pictures.
+    /// Summary of the world that single pictures show.
     pub(super) fn of(world: &World, size: (usize, usize), backend: &str) -> Self {
         let tally = world.tally();
         Self {

@@ -43,8 +43,9 @@ pub(crate) struct Stencil {
     pub(super) subject: Option<PathBuf>,
     #[command(flatten)]
     pub(super) show_preset: ShowPreset<VolumePainter>,
-    /// Subject of pictures: the result, the volumes over the drawing, white where they are, the grey
-    /// drawing, the scene in colour, or the pencil strokes
+    /// Content of pictures: `final`, the result; `volumes`, the volumes over the grey drawing; `mask`,
+    /// white where volumes are and black elsewhere; `grey`, the drawing without volumes; `colour`, the
+    /// scene in colour; `hatching`, the pencil strokes
     #[arg(long, value_name = "WHAT", default_value = "final", value_parser = shows())]
     pub(super) show: Show,
     /// Time of single pictures in seconds [default: the end]
@@ -379,14 +380,15 @@ pub(super) struct OutputOptions {
     /// Write a mask as PNG or OpenEXR: white where volumes bring colour
     #[arg(long, value_name = "FILE", help_heading = "Exports")]
     mask: Option<PathBuf>,
-    /// Write the steps to the picture into this folder as PNG: the colours seen, light, hatching,
+    /// Write intermediate stages of the picture into this folder as PNG: the colours seen, light, hatching,
     /// colour, grey, count and tint of each region, volumes, mask, picture
     #[arg(long, value_name = "FOLDER", help_heading = "Exports")]
     stages: Option<PathBuf>,
     /// Write the volumes of each frame into this folder as PLY
     #[arg(long, value_name = "FOLDER", help_heading = "Exports")]
     volumes: Option<PathBuf>,
-    /// Write what is poured, with all settings that differ from the preset, as a script (.toml)
+    /// Write the pours and other events of the scene, and all settings that differ from the preset, as a
+    /// script (.toml)
     #[arg(long, value_name = "FILE", help_heading = "Exports")]
     script_out: Option<PathBuf>,
 }
@@ -423,7 +425,7 @@ impl OutputOptions {
         self.script_out.as_ref().map(|path| path.parent().unwrap_or(Path::new("")).to_owned())
     }
 
-    /// Checks that all files can be written, for `frames` frames, and makes none.
+    /// Checks that all files can be written, with `frames` frames, but does not create them.
     pub(super) fn open(
         self,
         inputs: &[PathBuf],

@@ -41,7 +41,7 @@ pub(super) struct Scene {
     pub(super) size: (usize, usize),
     /// Whether it is a photograph, which has light of its own.
     pub(super) photograph: bool,
-    /// The model or photograph, for a script.
+    /// Path of the model or photograph, or name of the shape, to be written into a script.
     subject: PathBuf,
     /// Files that it was read from.
     pub(super) inputs: Vec<PathBuf>,
@@ -158,8 +158,9 @@ impl OpenScript {
         })
     }
 
-    /// The script as text, to be written into `folder`: with the paths of the subject and of the
-    /// `library` and a lamp from there, if they have files, and with the light of its paint.
+    /// The script as text for a file in `folder`. The files of the subject, the `library` and a lamp get
+    /// paths relative to this folder. `light` is the light of the paint, if there is paint: a name, or
+    /// the file of a lamp.
     pub(super) fn text(
         &self,
         scene: &Scene,
@@ -237,7 +238,7 @@ impl OpenScript {
     }
 }
 
-/// The path of a subject from a folder, or its whole path if it does not lie below the folder.
+/// The path of a subject relative to a folder, or its whole path if it does not lie below the folder.
 fn path_from(subject: &Path, folder: &Path) -> String {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let path = match (subject.canonicalize(), folder.canonicalize()) {
@@ -250,7 +251,7 @@ fn path_from(subject: &Path, folder: &Path) -> String {
     path.to_string_lossy().into_owned()
 }
 
-/// The file of a lamp from a folder, with the name of its spectrum if it has one.
+/// The file of a lamp relative to a folder, with the name of its spectrum if it has one.
 fn lamp_from(lamp: &str, folder: &Path) -> String {
     let (file, name) = split_file_and_name(lamp);
     let file = path_from(Path::new(file), folder);
@@ -311,7 +312,8 @@ pub(super) fn model_cameras(
 /// The cameras before a photograph.
 ///
 /// # Errors
-/// [`Fault`] of degrees that are too far to its side, and of an angle of view, which it has itself.
+/// [`Fault`] if the camera is too far to a side, or if the table gives an angle of view: a photograph
+/// always fills the picture.
 pub(super) fn picture_cameras(
     table: &CameraTable,
     view: PictureView,
