@@ -155,12 +155,13 @@ struct BrushworkOptions {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Subject")]
 struct FormOptions {
-    /// Directions of strokes: guides drawn as lines (.toml); or of a picture a PNG whose red (to the
-    /// right) and green (upwards) point about one half, and whose blue is the strength of flow
+    /// Directions of strokes: guides drawn as lines (.toml), or for a picture a PNG. Its red (to
+    /// the right) and green (upwards) give the direction, where one half is 0, and its blue the
+    /// strength of flow
     #[arg(long, value_name = "FILE")]
     directions: Option<PathBuf>,
-    /// Depth of a picture, which makes a relief of it, before which --camera and --turntable move:
-    /// white is near, black is far (.png, .jpg, .tif, .webp)
+    /// Depth of a picture: white is near, black is far (.png, .jpg, .tif, .webp). It makes a relief
+    /// of the picture, which --camera and --turntable then turn
     #[arg(long, value_name = "FILE")]
     depth: Option<PathBuf>,
 }
