@@ -26,13 +26,14 @@ pub(crate) struct SubjectOptions {
     /// Height of the picture of a mesh in pixels [default: three quarters of the width]
     #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u64).range(LEAST_PX..=MOST_PX))]
     height: Option<u64>,
-    /// Camera. For a mesh: degrees around it, degrees above the horizon, and angle of view, such as
-    /// `30,20,30` (the whole mesh is seen), or a file of keyframes (.toml). For a picture (not in
-    /// `watercolor`, in `painterly` only with its depth): degrees to the right and upwards
+    /// Camera. For a mesh: degrees around it and above the horizon, and the angle of view, such as
+    /// `30,20,30`, from where you see all of it; or a file of keyframes (.toml). For a picture that
+    /// can be turned (in `stencil`, and in `painterly` with a depth map): degrees to the right and
+    /// upwards, such as `8,4`
     #[arg(long, value_name = "DEG,DEG[,DEG]|FILE", allow_hyphen_values = true)]
     camera: Option<String>,
-    /// Number of frames in which the camera turns once around a mesh, or swings once in front of a
-    /// picture
+    /// Turn the camera around a mesh in this number of frames. In front of a picture that can be
+    /// turned, the camera swings from side to side
     #[arg(long, value_name = "FRAMES", value_parser = clap::value_parser!(u64).range(1..=MOST_FRAMES))]
     turntable: Option<u64>,
 }

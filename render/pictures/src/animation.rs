@@ -64,7 +64,8 @@ impl AnimationRequest {
     /// Checks that the animation can be written. Returns `None` if no frames are requested.
     ///
     /// # Errors
-    /// [`PictureError`] for another rate, another ending, or a file or folder that cannot be written.
+    /// [`PictureError`] for a frame rate or a file ending that no animation has, or a file or
+    /// folder that cannot be written.
     pub fn open(&self, inputs: &[PathBuf]) -> Result<Option<Animation>, PictureError> {
         let rate = FrameRate::new(self.rate)
             .map_err(|error| SettingError::because("rate", "takes another value", error))?;
@@ -84,7 +85,7 @@ impl AnimationRequest {
 /// Format of an animation, from the extension of `path`.
 ///
 /// # Errors
-/// [`SettingError`] for another extension.
+/// [`SettingError`] if the path has another extension than .gif, .png or .apng.
 pub fn animation_format(path: &Path) -> Result<AnimationFormat, SettingError> {
     AnimationFormat::from_path(path).ok_or_else(|| {
         let message = format!(
@@ -110,7 +111,7 @@ impl FramesDigest {
         self
     }
 
-    /// Its hexadecimal digits.
+    /// The digest in hexadecimal digits.
     #[must_use]
     pub fn text(self) -> String {
         self.0.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
@@ -137,10 +138,11 @@ impl Animation {
         &self.frames
     }
 
-    /// Opens the folder of frames. Frames of this digest are kept, all others are removed.
+    /// Opens the folder of frames. It keeps the frames painted from inputs of this digest and
+    /// removes all others.
     ///
     /// # Errors
-    /// [`SequenceError`] for a folder with frames of something else, or one that cannot be written.
+    /// [`SequenceError`] if the folder holds frames but no valid manifest, or cannot be written.
     pub fn begin(
         self,
         digest: FramesDigest,

@@ -14,10 +14,11 @@ use painterly::{Brushwork, Region, RegionArea, Regions};
 use crate::error::{PictureError, SettingError};
 use crate::request::PainterlyRequest;
 
-/// Name of regions that come from the key `map`, not from a file. Digests of frames that were painted before hold it.
+/// Name of the regions that the request gives by its key `map`, not by a file. It is part of the
+/// digest of all frames, so a new name would make finished frames invalid.
 const OF_KEY: &str = concat!("-", "-map");
 
-/// Maps with the names by which regions call them.
+/// The maps with their names. Regions refer to a map by its name.
 #[derive(Debug)]
 pub(crate) struct Maps {
     named: Vec<(String, ArtMap)>,
@@ -38,7 +39,8 @@ impl PainterlyRequest {
         maps.chain(style).map(PathBuf::from).chain(self.regions.clone()).collect()
     }
 
-    /// Reads the maps and regions, and makes the map of a style: of `usual` if none is named.
+    /// Reads the maps and regions. If the request names no map, this makes one of its style or,
+    /// without a style, of the style `usual`.
     pub(crate) fn maps(&self, usual: &str, task: &Task) -> Result<Maps, PictureError> {
         let chosen = self.chosen()?;
         let mut regions = match &self.regions {
@@ -63,7 +65,8 @@ impl PainterlyRequest {
         Ok(Maps { named, regions })
     }
 
-    /// The map that a region calls: a file beside the file of regions or as in the request, or a style.
+    /// The map that a region names. `name` is a file beside the file of regions, or else a path as
+    /// in the request, or else a style.
     fn map_of_region(&self, name: &str, task: &Task) -> Result<ArtMap, PictureError> {
         let folder = self.regions.as_deref().and_then(Path::parent);
         let beside = folder.map(|folder| folder.join(name)).filter(|path| path.exists());
@@ -119,7 +122,7 @@ fn styled(style: &str, task: &Task) -> Result<ArtMap, PictureError> {
     Ok(ArtMap::of(&samples, &SynthesisSettings::default())?)
 }
 
-/// Material, if one is named, and file of a text `[MATERIAL=]FILE`.
+/// Splits a text `[MATERIAL=]FILE` into the material, if there is one, and the file.
 fn file_of(text: &str) -> (Option<&str>, &str) {
     match text.split_once('=') {
         Some((material, file)) if !Path::new(text).exists() => (Some(material), file),

@@ -36,7 +36,7 @@ use watercolor::WatercolorError;
 /// calls [`Self::message`].
 #[derive(Debug)]
 pub struct SettingError {
-    /// The setting with which the message begins, if it does.
+    /// The setting with which the message begins. `None` if it begins with no setting.
     key: Option<String>,
     /// The rest of the message.
     reason: Hint,
@@ -56,22 +56,24 @@ impl SettingError {
         Self { key: None, reason, hint: Some(Hint::new(hint)), cause: None }
     }
 
-    /// The error with a message that names further settings in square brackets.
+    /// Returns the error with the message `reason`, which names further settings in square
+    /// brackets.
     pub(crate) fn naming(self, reason: &str) -> Self {
         Self { reason: Hint::new(reason), ..self }
     }
 
-    /// The error with a hint that names no setting, and may quote any name.
+    /// Returns the error with another hint. The hint names no setting, so square brackets in it
+    /// stay as they are.
     pub(crate) fn verbatim(self, hint: impl Into<String>) -> Self {
         Self { hint: Some(Hint::verbatim(hint)), ..self }
     }
 
-    /// The setting `key` with the message and the hint of another error.
+    /// An error for the setting `key`. Message and hint are taken from `error`.
     pub(crate) fn as_of(key: &str, error: &impl Explain) -> Self {
         Self { hint: error.hint(), ..Self::of(key, error.to_string(), "") }
     }
 
-    /// The setting `key`, with another error as the cause.
+    /// An error for the setting `key`, with another error as its cause.
     pub(crate) fn because(
         key: &str,
         reason: &str,
@@ -142,16 +144,16 @@ pub enum PictureError {
     Encoding {
         /// Path of the file.
         file: String,
-        /// The first byte that is not, counted from 0.
+        /// Index of the first byte that is not UTF-8, counted from 0.
         byte: usize,
     },
-    /// The work was asked to end.
+    /// The task was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
     /// A file cannot be read or written.
     #[error(transparent)]
     File(#[from] FileError),
-    /// An output cannot be written, or must not be.
+    /// An output cannot be written, or would replace a file that must stay.
     #[error(transparent)]
     Output(#[from] OutputError),
     /// There is no such preset, or a file of settings has a fault.
@@ -232,7 +234,7 @@ pub enum PictureError {
     /// The frames of an animation cannot be written.
     #[error(transparent)]
     Sequence(#[from] SequenceError),
-    /// A picture cannot have so many pixels a cell.
+    /// A picture cannot have this number of pixels per cell.
     #[error(transparent)]
     PixelsPerCell(#[from] PixelsPerCellError),
 }

@@ -151,7 +151,8 @@ impl ExportRequest {
         self.output.iter().any(|path| Kind::of(path) == Some(kind))
     }
 
-    /// The one file of a kind, from its own key or from `output`.
+    /// The file of this kind, from its own key or from `output`. An error if several files are of
+    /// this kind.
     fn one(&self, kind: Kind, own: Option<&PathBuf>) -> Result<Option<PathBuf>, SettingError> {
         let named = self.output.iter().filter(|path| Kind::of(path) == Some(kind));
         let all: Vec<&PathBuf> = own.into_iter().chain(named).collect();
@@ -165,7 +166,8 @@ impl ExportRequest {
         }
     }
 
-    /// Refuses a file of `output` if its ending names no kind, and bits that no picture has.
+    /// Checks that the ending of every file in `output` names a kind, and that a picture can have
+    /// `bits` bits per channel.
     fn check(&self) -> Result<(), SettingError> {
         if ![8, 16].contains(&self.bits) {
             let reason = format!("takes 8 or 16, found `{}`", self.bits);
@@ -202,7 +204,7 @@ impl ExportRequest {
     /// Checks, before long work, that all files can be written and are none of `inputs`.
     ///
     /// # Errors
-    /// [`PictureError`] for a file that cannot be written, or two of one kind.
+    /// [`PictureError`] for a file that cannot be written, and for two files of the same kind.
     pub fn open(self, inputs: &[PathBuf]) -> Result<OpenExports, PictureError> {
         self.check()?;
         let named = self.one(Kind::Picture, self.picture.as_ref())?;
@@ -348,7 +350,7 @@ pub(crate) fn write(
     Ok(())
 }
 
-/// File format of a picture at `path`, from its extension and the bits of a PNG.
+/// File format of a picture at `path`. The extension decides and, for PNG, the number of `bits`.
 fn format_of(bits: u8, path: &Path) -> PictureFormat {
     match (PictureFormat::from_path(path), bits) {
         (Some(format @ (PictureFormat::LinearExr | PictureFormat::Tiff16)), _) => format,
@@ -364,10 +366,10 @@ pub fn gamut_remark(path: &Path, outside: OutsideGamut) -> Remark {
     Remark { hint: outside.hint(), ..remark }
 }
 
-/// Width of a pixel of a picture to look at, in mm: 96 to the inch.
+/// Width of a pixel in mm, for pictures that are only looked at: 96 pixels per inch.
 pub const PX_MM: f64 = 25.4 / 96.0;
 
-/// A folder that you can write stages to. We make it with the first stage.
+/// A folder that you can write stages to. We create it when we write the first stage.
 #[derive(Debug)]
 pub struct StageFolder(OutputFolder);
 

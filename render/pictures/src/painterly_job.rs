@@ -48,7 +48,7 @@ pub(crate) struct PainterlyJob {
     exr_frames: Option<ExrFrames>,
 }
 
-/// A subject, and the pictures of it.
+/// A subject, with the cameras and the size of its pictures.
 #[derive(Debug)]
 struct Scene {
     form: Form,
@@ -339,7 +339,7 @@ fn library_of(
     Ok(library)
 }
 
-/// A folder that a number of frames can be written to.
+/// A folder that all frames can be written to.
 #[derive(Debug)]
 struct ExrFrames {
     folder: OutputFolder,

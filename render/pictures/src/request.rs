@@ -114,7 +114,7 @@ pub(crate) struct OpenOutputs {
     pub(crate) animation: Option<Animation>,
 }
 
-/// A technique of painting, with what it alone takes.
+/// A technique of painting, with the settings that only this technique takes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum TechniqueRequest {
@@ -148,11 +148,12 @@ pub struct PainterlyRequest {
     pub style: Option<String>,
     /// Regions with a map, direction, size, flow or tones of their own (.toml)
     pub regions: Option<PathBuf>,
-    /// Directions of strokes: guides drawn as lines (.toml), or of a picture a PNG: red (to the right) and green
-    /// (upwards) point about one half, and blue is the strength of flow
+    /// Directions of strokes: guides drawn as lines (.toml), or for a picture a PNG. Its red (to
+    /// the right) and green (upwards) give the direction, where one half is 0, and its blue the
+    /// strength of flow
     pub directions: Option<PathBuf>,
-    /// Depth of a picture, which makes a relief of it, before which cameras move: white is near, black
-    /// is far (.png, .jpg, .tif, .webp)
+    /// Depth of a picture: white is near, black is far (.png, .jpg, .tif, .webp). It makes a relief
+    /// of the picture, which you can then turn
     pub depth: Option<PathBuf>,
     /// Let strokes flow in a loop of this number of frames, 1 to 100000, seen from a camera that stands
     /// still
@@ -234,7 +235,7 @@ pub struct PictureOutcome {
     pub size: (usize, usize),
     /// Name of the device: `cpu`, or the name of a graphics adapter.
     pub backend: String,
-    /// Numbers of the technique alone.
+    /// Figures that only this technique has.
     #[serde(flatten)]
     pub technique: TechniqueOutcome,
     /// Number of frames of an animation.
@@ -245,7 +246,7 @@ pub struct PictureOutcome {
     pub pigments: Vec<String>,
     /// Remarks on what was read or chosen, and on colours that a file cannot hold.
     pub remarks: Vec<String>,
-    /// Files and folders that were written, in their order.
+    /// Files and folders that were written, in the order in which they were written.
     pub files: Vec<PathBuf>,
     /// The content of a file whose path is `-`.
     #[serde(skip)]

@@ -98,17 +98,17 @@ pub fn palette(lists: &[String], library: &PigmentLibrary) -> Result<Slots, Pict
     Ok(palette_slots(&pigment_names(lists, library), library)?)
 }
 
-/// The names in lists, in which commas separate them. A pigment's own commas do not: see
-/// [`listed`].
+/// The names in lists. Commas separate names, except commas that belong to the name of a pigment:
+/// see [`listed`].
 #[must_use]
 pub fn pigment_names(lists: &[String], library: &PigmentLibrary) -> Vec<String> {
     let names = lists.iter().flat_map(|list| listed(list, library, |part| part));
     names.map(str::to_owned).collect()
 }
 
-/// The parts of a list, which commas separate. A pigment's own commas do not separate. For example,
-/// `Madder (old, dry)` is one part. We take the longest part in which `name_of` finds a pigment of
-/// the library. Brackets stay together too.
+/// The parts of a list. Commas separate parts, except commas that belong to the name of a pigment.
+/// For example, `Madder (old, dry)` is one part. We take the longest part in which `name_of` finds
+/// a pigment of the library. Text in brackets stays together too.
 #[must_use]
 pub fn listed<'t>(
     list: &'t str,

@@ -25,9 +25,9 @@ pub const LEAST_PX: u64 = 16;
 pub const MOST_PX: u64 = 16_384;
 /// Largest number of frames.
 pub const MOST_FRAMES: u64 = 100_000;
-/// Degrees by which the camera of a picture swings to both sides.
+/// Angle by which the camera of a picture swings to each side, in degrees.
 const SWING_DEG: f32 = 8.0;
-/// Degrees that a camera stands away from straight before a picture at most.
+/// Largest angle between a camera of a picture and the view from straight ahead, in degrees.
 pub const FARTHEST_DEG: f32 = 80.0;
 /// Default width of a picture of a mesh, in pixels.
 const WIDTH: usize = 1000;
@@ -41,23 +41,23 @@ pub struct ViewRequest {
     pub width: Option<u64>,
     /// Height of the picture of a mesh in pixels [default: three quarters of the width]
     pub height: Option<u64>,
-    /// Camera that shows all of a mesh: degrees around it and above the horizon, and the angle of
-    /// view, such as `30,20,30`, or a file of keyframes (.toml). For a picture, if its
-    /// camera may move: degrees to the right and upwards
+    /// Camera. For a mesh: degrees around it and above the horizon, and the angle of view, such as
+    /// `30,20,30`, from where you see all of it; or a file of keyframes (.toml). For a picture with
+    /// a depth: degrees to the right and upwards, such as `8,4`
     pub camera: Option<String>,
-    /// Turn the camera around a mesh in this number of frames, 1 to 100000. In front of a picture, if
-    /// its camera may move, it swings
+    /// Turn the camera around a mesh in this number of frames, 1 to 100000. In front of a picture
+    /// with a depth, the camera swings from side to side
     pub turntable: Option<u64>,
 }
 
-/// Cameras that may see a picture.
+/// Cameras from which a picture may be seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PictureViews {
-    /// The whole picture from the front.
+    /// Only from the front, the whole picture.
     Front,
-    /// Also cameras that the request turns.
+    /// From the front, or turned by the degrees that the request gives.
     Turned,
-    /// Any camera, with pictures of any shape.
+    /// Any camera, and the picture may have another aspect than its subject.
     Free,
 }
 
@@ -146,13 +146,14 @@ impl ViewRequest {
         self.camera.is_some() || self.turntable.is_some()
     }
 
-    /// Shows the subject in its size by the usual camera.
+    /// The request without a camera of its own: the usual camera shows the subject in the same
+    /// size.
     #[must_use]
     pub fn without_camera(&self) -> Self {
         Self { width: self.width, height: self.height, ..Self::default() }
     }
 
-    /// The file of keyframes that `camera` names, if it does.
+    /// The file of keyframes that `camera` names. `None` if it gives degrees or nothing.
     ///
     /// # Errors
     /// [`SettingError`] if a turntable moves the camera too.
@@ -172,8 +173,8 @@ impl ViewRequest {
         }
     }
 
-    /// Positions of the cameras of a picture, in degrees to the right and upwards from straight
-    /// before it: one position, or all positions of a swing around it.
+    /// Positions of the cameras of a picture, in degrees to the right and upwards from the view
+    /// from straight ahead: one position, or all positions of a swing around this view.
     ///
     /// # Errors
     /// The errors of [`Self::picture_camera`].
@@ -279,9 +280,10 @@ fn is_mesh(path: &Path) -> Result<bool, PictureError> {
     Ok(matches!(ending.as_deref(), Some("obj" | "gltf" | "glb" | "ply")))
 }
 
-/// Degrees to the right and upwards of the cameras before a picture: `way`, or as many as `frames`
-/// of a swing around that place. Without a `way` it is straight before it, and a swing is a small
-/// one.
+/// Positions of the cameras of a picture, in degrees to the right and upwards from the view from
+/// straight ahead. Without `frames` this is the position `way`, or straight ahead without a `way`.
+/// With `frames`, it is so many positions of a swing around straight ahead, as wide as `way`, or a
+/// small swing without a `way`.
 #[must_use]
 pub fn picture_turns(way: Option<[f32; 2]>, frames: Option<u64>) -> Vec<[f32; 2]> {
     let Some(frames) = frames else { return vec![way.unwrap_or_default()] };

@@ -190,7 +190,7 @@ fn check_pigments(request: &PictureRequest, own: &WatercolorRequest) -> Result<(
     }
 }
 
-/// The painter of glazes of the library at `path`.
+/// A painter of glazes with the pigments of the library at `path`.
 fn glaze_painter(
     path: &Path,
     request: &PictureRequest,

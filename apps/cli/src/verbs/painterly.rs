@@ -155,12 +155,13 @@ struct BrushworkOptions {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Subject")]
 struct FormOptions {
-    /// Directions of strokes: guides drawn as lines (.toml). For a picture also a PNG: red is the part to
-    /// the right and green the part upwards (one half is zero), blue is the strength of flow
+    /// Directions of strokes: guides drawn as lines (.toml), or for a picture a PNG. Its red (to
+    /// the right) and green (upwards) give the direction, where one half is 0, and its blue the
+    /// strength of flow
     #[arg(long, value_name = "FILE")]
     directions: Option<PathBuf>,
-    /// Depth of a picture (.png, .jpg, .tif, .webp): white is near, black is far. This gives the picture
-    /// a relief, so that --camera and --turntable can move the camera
+    /// Depth of a picture: white is near, black is far (.png, .jpg, .tif, .webp). It makes a relief
+    /// of the picture, which --camera and --turntable then turn
     #[arg(long, value_name = "FILE")]
     depth: Option<PathBuf>,
 }

@@ -573,7 +573,8 @@ const FOLLOWED: f32 = 0.2;
 /// Where the sides of the contact are, seen from the pen.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Sides {
-    /// Lowest and highest distance in cells across the stroke. `None` before its first contact.
+    /// Lowest and highest position of the contact across the stroke, in cells from the pen. It
+    /// follows the head with a delay. `None` until the head first touches in a stroke.
     extent: Option<(f32, f32)>,
 }
 

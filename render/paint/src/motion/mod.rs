@@ -50,8 +50,8 @@ pub struct MotionConstants {
     /// Share of a difference in pressure between two columns, one of them under the head,
     /// that flows in a sub-step, in parts of 65536. Up to 8192.
     pub push_share: u32,
-    /// Pressure under a head that has penetrated 1 mm, relative to the pressure under 1 mm of
-    /// paint, in parts of 65536.
+    /// Pressure of the head where it has sunk 1 mm into the paint, in parts of 65536 of the
+    /// pressure that 1 mm of paint has by its height. At 65536 the two are equal.
     pub squeeze_share: u32,
     /// Difference in height between two columns, in quanta, that the paint bears without flowing.
     /// This is its yield.

@@ -587,7 +587,8 @@ impl CleanHead {
         Ok(Some(Self { brush, set_aside, taken: TakenPaint::default(), since }))
     }
 
-    /// Number of sub-steps that may be painted before the head is emptied.
+    /// Number of sub-steps that may be painted until [`CleanHead::painted`] takes the collected
+    /// paint off the head. [`usize::MAX`] if the tool lays this paint down again.
     fn left(&self) -> usize {
         self.since.map_or(usize::MAX, |since| EMPTIED_EVERY - since)
     }

@@ -263,7 +263,8 @@ const TOOLS: [(StrokeTool, HeadShape); 5] = [
     (BLEND, HeadShape::Knife),
 ];
 
-/// Works along the middle of the canvas, and returns what was taken.
+/// Moves `tool` with a head of `shape` along the middle of the canvas. Returns the paint that it
+/// took off the canvas.
 fn work_along(
     painting: &mut Painting,
     tool: StrokeTool,

@@ -1,5 +1,5 @@
 //! Applying actions to a session: single actions, adjustments by a slider that count as one, and
-//! undo and redo over both surfaces.
+//! undo and redo, whose history covers canvas and palette.
 
 use pigment::PigmentId;
 
@@ -46,7 +46,7 @@ impl PaintingSession {
     fn check(&self, action: &Action) -> Result<(), PaintingError> {
         let at = CheckContext::default();
         if let Some(brush) = action.brush() {
-            check_brush(&at, brush, self.brushes.names().map(|(name, _)| name))?;
+            check_brush(&at, brush, self.brushes.named_heads().map(|(name, _)| name))?;
         }
         Ok(self.surfaces().check(&at, action)?)
     }
@@ -264,9 +264,9 @@ impl PaintingSession {
             self.paintings_mut().for_each(Painting::begin_adjusting);
         }
         match self.perform(&action, &pigments) {
-            Ok(on) => {
-                let on = on.unwrap_or_default();
-                self.adjusting = Some(Adjusting { control, action, on });
+            Ok(changed) => {
+                let changed = changed.unwrap_or_default();
+                self.adjusting = Some(Adjusting { control, action, changed });
                 Ok(())
             }
             Err(error) => {
@@ -280,10 +280,10 @@ impl PaintingSession {
 
     /// Ends the open adjustment. Does nothing if none is open.
     pub fn end_adjustment(&mut self) {
-        let Some(Adjusting { action, on, .. }) = self.adjusting.take() else { return };
+        let Some(Adjusting { action, changed, .. }) = self.adjusting.take() else { return };
         self.end_adjusting();
         let label = self.label(&action, &ActionPigments::None);
-        self.record_done(action, &ActionPigments::None, label, (on, None));
+        self.record_done(action, &ActionPigments::None, label, (changed, None));
     }
 
     /// Finishes the open stroke or adjustment, if there is one.
@@ -435,7 +435,7 @@ impl PaintingSession {
         exchange: impl Fn(&mut Painting) -> Result<bool, PaintingError>,
     ) -> Result<(), PaintingError> {
         for surface in SurfaceId::ALL {
-            if entry.on[surface] {
+            if entry.changed[surface] {
                 let done = exchange(self.surface_mut(surface)?)?;
                 assert!(done, "the history of the painting has `{}`", entry.label);
             }

@@ -22,14 +22,14 @@ pub(super) struct Entry {
     pub(super) number: u64,
     /// Label for display.
     pub(super) label: String,
-    /// Whether the history of each surface has this action.
-    pub(super) on: PerSurface<bool>,
+    /// Whether this action changed each surface, so that its history has the action.
+    pub(super) changed: PerSurface<bool>,
     pub(super) carried: Option<Carried>,
 }
 
 /// Number of actions of each surface.
 fn counts(entries: &VecDeque<Entry>) -> PerSurface<usize> {
-    PerSurface::from_fn(|surface| entries.iter().filter(|entry| entry.on[surface]).count())
+    PerSurface::from_fn(|surface| entries.iter().filter(|entry| entry.changed[surface]).count())
 }
 
 /// Drops the entries farthest from the present, which are the first, until each surface has at most
@@ -58,10 +58,15 @@ pub(super) struct SharedHistory {
 
 impl SharedHistory {
     /// Adds a new action. The undone ones are dropped.
-    pub(super) fn add(&mut self, label: String, on: PerSurface<bool>, carried: Option<Carried>) {
+    pub(super) fn add(
+        &mut self,
+        label: String,
+        changed: PerSurface<bool>,
+        carried: Option<Carried>,
+    ) {
         self.undone.clear();
         self.last += 1;
-        self.done.push_back(Entry { number: self.last, label, on, carried });
+        self.done.push_back(Entry { number: self.last, label, changed, carried });
     }
 
     /// Drops the actions that a painting has dropped. `undo` and `redo` are the numbers of

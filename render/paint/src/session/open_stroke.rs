@@ -46,7 +46,7 @@ impl PaintingSession {
 
     /// Index of the head that has a name now.
     pub(super) fn tool(&self, brush: &str) -> Result<usize, PaintingError> {
-        let names = self.brushes.names().map(|(name, _)| name);
+        let names = self.brushes.named_heads().map(|(name, _)| name);
         let found = self.brushes.find(brush);
         Ok(found.ok_or_else(|| unknown_brush(&CheckContext::default(), brush, names))?)
     }

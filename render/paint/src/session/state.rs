@@ -23,8 +23,8 @@ pub(super) struct Adjusting {
     pub(super) control: Control,
     /// The action with the latest values.
     pub(super) action: Action,
-    /// Surfaces that it changes.
-    pub(super) on: PerSurface<bool>,
+    /// Whether it changes each surface.
+    pub(super) changed: PerSurface<bool>,
 }
 
 /// Property that an adjustment changes.
@@ -208,7 +208,7 @@ impl PaintingSession {
 
     /// All brushes, in the order of their names.
     pub fn brushes(&self) -> impl Iterator<Item = (&str, &BrushSpec)> {
-        self.brushes.names().map(|(name, tool)| (name, &tool.spec))
+        self.brushes.named_heads().map(|(name, tool)| (name, &tool.spec))
     }
 
     /// Paint on a brush. `None` if there is no such brush, or if it was never used.
@@ -463,8 +463,8 @@ impl Brushes {
         self.tools.iter().position(|tool| tool.named && tool.name == name)
     }
 
-    /// Names with the heads that have them now, in the order of the names.
-    pub(super) fn names(&self) -> impl Iterator<Item = (&str, &KeptHead)> + Clone {
+    /// The heads that have a name now, with their names, sorted by name.
+    pub(super) fn named_heads(&self) -> impl Iterator<Item = (&str, &KeptHead)> + Clone {
         let mut named: Vec<_> = self.tools.iter().filter(|tool| tool.named).collect();
         named.sort_by(|a, b| a.name.cmp(&b.name));
         named.into_iter().map(|tool| (tool.name.as_str(), tool))
@@ -515,7 +515,7 @@ mod tests {
         assert_eq!(now(&brushes, "round"), (0, "round".to_owned()));
         assert_eq!(brushes.add("round", &spec(8.0)), Added::Ready, "it was never used");
         assert_eq!(brushes.replaced(), [0], "`round` is the second again");
-        let names: Vec<&str> = brushes.names().map(|(name, _)| name).collect();
+        let names: Vec<&str> = brushes.named_heads().map(|(name, _)| name).collect();
         assert_eq!(names, ["round", "round 2"]);
     }
 }

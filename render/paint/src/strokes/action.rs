@@ -274,9 +274,9 @@ pub enum MaskChange {
     /// Leaves the inside of a polygon open, by the even-odd rule, and covers the rest. Its points
     /// are in mm from the upper left corner.
     PolygonMm(Vec<[f64; 2]>),
-    /// Leaves the cells open that have paint of a layer now.
+    /// Masks every cell that has no paint of this layer now.
     Layer(LayerRef),
-    /// Leaves the cells open that have paint now, wet or dry.
+    /// Masks every cell that has no paint now. Cells with wet or dry paint stay open.
     Painted {},
     /// Exchanges what is covered and what is open. Always true.
     Inverse(bool),

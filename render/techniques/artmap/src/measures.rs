@@ -300,9 +300,9 @@ pub fn usual_wrap_ratio(map: &Texture) -> f64 {
     ratios.get(ratios.len() * 95 / 100).copied().unwrap_or(1.0)
 }
 
-/// Use of the most used part of a sample over the mean use of its parts. If the map is too small
-/// to show every part once, it is over a single use instead. This is 1 where all parts are used
-/// alike. Parts are squares of `block` texels that lie in the mask.
+/// How often a map uses the most used part of its sample, relative to the mean use of all parts. It
+/// is 1 if all parts are used equally. If the map is too small to show every part once, this is
+/// relative to a single use instead. Parts are squares of `block` texels that lie in the mask.
 #[must_use]
 pub fn most_used(sources: &Field<[u16; 2]>, mask: &Field<bool>, block: usize) -> f64 {
     let width = mask.width().div_ceil(block);

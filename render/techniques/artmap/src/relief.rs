@@ -125,7 +125,7 @@ mod tests {
         slopes(&heights, &Field::filled(9, 9, true), 0.5)
     }
 
-    /// Grey in the middle of such a plane under a light at 25 degrees.
+    /// Grey in the middle of a plane with these slopes, under a light at 25 degrees.
     fn grey(across: f32, down: f32) -> f32 {
         raked(&plane(across, down), 25.0_f32.to_radians().tan())[(4, 4)][0]
     }

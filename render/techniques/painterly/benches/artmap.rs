@@ -10,20 +10,21 @@ use artmap::sample::SampleSet;
 use artmap::synthesis::SynthesisSettings;
 use divan::{Bencher, black_box};
 
-/// Seven tones in the strokes of a style: the same in all tones, or a seed of its own each.
+/// Seven tones in the strokes of a style. If `nested`, all tones have the same strokes. If not,
+/// each tone has its own seed.
 fn samples(name: &str, nested: bool) -> SampleSet {
     let mut style = Style::named(name).unwrap();
     style.strokes.nested = nested;
     painted_samples(&style, &PaintedSettings::default()).unwrap()
 }
 
-/// Seven tones from a style to their file.
+/// Paints samples of seven tones in each style.
 #[divan::bench(args = Style::ALL, sample_count = 2)]
 fn painted(bencher: Bencher<'_, '_>, name: &str) {
     bencher.bench_local(|| samples(black_box(name), true));
 }
 
-/// Samples to tiles of 256 x 256 texels.
+/// Synthesises a map with tiles of 256 x 256 texels from samples.
 fn map(set: &SampleSet) -> ArtMap {
     ArtMap::of(black_box(set), &SynthesisSettings::default()).unwrap()
 }
@@ -36,7 +37,7 @@ fn map_of_nested_samples(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| map(set));
 }
 
-/// Seven samples of other strokes each, so that all tiles but the first have to be found.
+/// Seven samples with different strokes, so that all tiles but the first have to be found.
 #[divan::bench(sample_count = 2)]
 fn map_of_unlike_samples(bencher: Bencher<'_, '_>) {
     static SET: OnceLock<SampleSet> = OnceLock::new();

@@ -28,10 +28,10 @@ struct Row {
     name: &'static str,
     shape: SampleModel,
     splats: usize,
-    /// Splats of outlines.
+    /// Number of splats along outlines.
     outlines: usize,
     size: (usize, usize),
-    /// Frames per second of the paper.
+    /// Frames per second that the paper reports.
     published: f64,
 }
 
@@ -162,14 +162,14 @@ fn painter(row: Row) -> (Painter, Camera) {
     (painter, camera)
 }
 
-/// A whole frame: strokes of the sight and the three passes.
+/// A whole frame: its strokes and the three passes.
 #[divan::bench(args = ROWS, sample_count = 20)]
 fn frame(bencher: Bencher<'_, '_>, row: Row) {
     let (mut painter, camera) = painter(row);
     bencher.bench_local(|| painter.paint(black_box(&camera), row.size, 0.0).unwrap());
 }
 
-/// The mesh's depth and the strokes of a sight.
+/// The depth of the mesh and the strokes of a view.
 #[divan::bench(args = ROWS, sample_count = 20)]
 fn strokes(bencher: Bencher<'_, '_>, row: Row) {
     let (mut painter, camera) = painter(row);
@@ -197,21 +197,21 @@ fn lit_painting(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// Its strokes alone.
+/// The strokes of the lit painting alone.
 #[divan::bench(sample_count = 10)]
 fn lit_painting_strokes(bencher: Bencher<'_, '_>) {
     let (mut painter, camera) = painter(PAINTED);
     bencher.bench_local(|| painter.splats(black_box(&camera), PAINTED.size, 0.0).unwrap());
 }
 
-/// Its strokes, amounts and document.
+/// The strokes, amounts and document of the lit painting.
 #[divan::bench(sample_count = 10)]
 fn lit_painting_document(bencher: Bencher<'_, '_>) {
     let (mut painter, camera) = painter(PAINTED);
     bencher.bench_local(|| document(&mut painter, black_box(&camera)));
 }
 
-/// Its ground alone.
+/// The ground of the lit painting alone.
 #[divan::bench(sample_count = 10)]
 fn lit_painting_ground(bencher: Bencher<'_, '_>) {
     let (mut painter, camera) = painter(PAINTED);
@@ -221,7 +221,7 @@ fn lit_painting_ground(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| spec.build(width, height, black_box(cell_mm), &library).unwrap());
 }
 
-/// Its light alone.
+/// The light of the lit painting alone.
 #[divan::bench(sample_count = 10)]
 fn lit_painting_light(bencher: Bencher<'_, '_>) {
     let (mut painter, camera) = painter(PAINTED);
@@ -233,7 +233,7 @@ fn lit_painting_light(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// Paint of a palette for the colours of a picture: amounts and their layer.
+/// Amounts of pigments for the colours of a picture, and a layer made of them.
 #[divan::bench(sample_count = 10)]
 fn paint_of_colors(bencher: Bencher<'_, '_>) {
     let (mut painter, camera) = painter(PAINTED);
@@ -256,8 +256,8 @@ fn color_paint() -> ColorPaint {
     ColorPaint::new(library, slots, (&ground, &Lighting::default()), &settings).unwrap()
 }
 
-/// A photograph of one megapixel, from its pixels to the painted picture. The map is laid out each
-/// time too. Published: nothing.
+/// A photograph of one megapixel, from its pixels to the painted picture. This includes laying out
+/// the map. The paper reports no figure.
 #[divan::bench(sample_count = 5)]
 fn photograph(bencher: Bencher<'_, '_>) {
     let pixels = Field::from_values(

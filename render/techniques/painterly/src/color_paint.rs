@@ -22,13 +22,14 @@ use spectra::color::Rgb;
 use super::paint_tones::Amounts;
 use super::passes::PaintedPicture;
 
-/// Height of a film without relief in mm (as the strokes of a painted photograph).
+/// Height of a film in mm if the map has no relief. Photographs painted in strokes have this height
+/// too.
 const PLAIN_MM: f32 = 0.12;
 
 /// Steps of the table that decodes encoded values.
 const STEPS: usize = 4096;
 
-/// Pixels that share the work of one thread at least.
+/// Least number of pixels that a thread computes.
 const PIXELS: usize = 1024;
 
 /// How colours become films.
@@ -90,7 +91,7 @@ pub struct ColorPaint {
     least_mm: f32,
     /// Linear value of the darkest tone of the paintings.
     black: f32,
-    /// Linear values of encoded ones in even steps.
+    /// Table from encoded to linear values, in even steps of the encoded value.
     linear: Vec<f32>,
 }
 
@@ -212,7 +213,8 @@ impl ColorPaint {
     }
 }
 
-/// Linear values of encoded ones from 0 to 1, and one more.
+/// Linear values for encoded values from 0 to 1 in even steps. The last is repeated once, so that
+/// interpolation at 1 finds a next value.
 fn linear_values() -> Vec<f32> {
     (0..=STEPS + 1)
         .map(|step: usize| {
@@ -374,7 +376,7 @@ mod tests {
         }))
     }
 
-    /// Side of a cell in mm, as the strokes of the map demand.
+    /// Side of a cell in mm at which strokes have the size that the map gives.
     fn cell_mm() -> f64 {
         let width_px = settings().for_size(SIZE.0, SIZE.1).strokes.width_px;
         super::super::test_scenes::SPACING as f64 * MM_PER_TEXEL / f64::from(width_px)
@@ -399,8 +401,9 @@ mod tests {
         Lab::from_xyz(xyz.into(), RgbSpace::Srgb.white())
     }
 
-    /// Mean CIEDE2000 of the document's picture against the colours over the pixels that strokes
-    /// cover with a colour in gamut, with their number and the number of all covered pixels.
+    /// Mean CIEDE2000 between the picture of the document and the colours, over the pixels that
+    /// strokes cover with a colour in gamut. Also returns the number of these pixels, and the
+    /// number of all covered pixels.
     fn difference(painted: &PaintedPicture) -> (f64, usize, usize) {
         let film = FilmHeight::of(&map(4));
         let document = document(&PAINT.amounts(painted, film));

@@ -49,16 +49,16 @@ pub(super) struct Coloring {
     of_model: bool,
     pub(super) rgb_from_xyz: [[f32; 3]; 3],
     pub(super) white: [f32; 3],
-    /// Encoded values of linear ones in even steps.
+    /// Table from linear to encoded values, in even steps of the linear value.
     pub(super) encoded: Vec<f32>,
 }
 
-/// Amounts that are taken from the texels of a map.
+/// How the texels of a map become detail: we subtract the mean and scale the rest.
 #[derive(Debug, Clone, Copy)]
 struct MapColors {
     /// Mean of all texels.
     mean: Vec3,
-    /// Share of what is left, by coordinate.
+    /// Factor on the difference from the mean, for each coordinate.
     share: Vec3,
 }
 
@@ -122,9 +122,9 @@ impl Coloring {
         own
     }
 
-    /// Colour that we take from the texels of a tile (linear sRGB) of a map. This is the mean of
-    /// all its tiles. On pictures it is the mean of this tile, since pictures have their lightness
-    /// already.
+    /// The mean colour that we subtract from the texels of a tile (linear sRGB) of a map. On models
+    /// it is the mean of all tiles of the map. On pictures it is the mean of this tile, since
+    /// pictures have their lightness already.
     pub(super) fn mean(&self, map: usize, tile: &Picture) -> Vec3 {
         if !self.of_model || self.kind == SubjectKind::Model {
             return self.maps[map].mean;
@@ -133,7 +133,8 @@ impl Coloring {
         moments(&texels).0
     }
 
-    /// Colours that texels of linear sRGB of a map add to a pixel, once you take `mean` from them.
+    /// Colours that texels (linear sRGB) of a map add to a pixel, after `mean` is subtracted from
+    /// them.
     pub(super) fn details(&self, map: usize, mean: Vec3, texels: &Picture) -> Vec<Vec3> {
         let share = self.maps[map].share;
         self.mapped(texels).into_iter().map(|color| (color - mean) * share).collect()

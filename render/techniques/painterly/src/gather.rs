@@ -18,10 +18,10 @@ use super::tones::Tones;
 const NEGLIGIBLE: f32 = 1.0 / 256.0;
 
 /// We multiply weights by this before we raise them to a power, so that the weights of a thin cover
-/// do not vanish among the numbers of f32.
+/// do not become 0 in f32.
 const SCALE: f32 = 8.0;
 
-/// Sums of weights below this are lost.
+/// If the sum of weights is below this, f32 has lost it, and we take it as 0.
 pub(super) const LOST: f32 = 1e-30;
 
 /// Sums over the strokes of one surface at each pixel of a square.
@@ -32,7 +32,7 @@ pub(super) struct Sums {
     /// Colours of the splats times weights.
     pub(super) color: [[[f32; 3]; SIDE]; SIDE],
     pub(super) weight: Values,
-    /// Sum of the splats' parts in the cover.
+    /// Sum of the amounts that splats add to the cover.
     pub(super) cover: Values,
     /// Weights of all splats.
     pub(super) total: Values,
@@ -40,12 +40,12 @@ pub(super) struct Sums {
     pub(super) parts: Vec<(u32, Values)>,
 }
 
-/// Strokes on the mesh, and those that reach out before it.
+/// Sums of the strokes on the mesh, and of the strokes that reach out in front of it.
 #[derive(Debug, Clone)]
 pub(super) struct Gathered {
     pub(super) on: Sums,
     pub(super) before: Sums,
-    /// Splats of the list that lie before some pixels: their index, depth and weight.
+    /// Splats that lie in front of the mesh at some pixels: their index, depth and weight.
     raised: Vec<(u32, Values, Values)>,
 }
 
@@ -92,7 +92,7 @@ impl Sums {
         !self.parts.is_empty()
     }
 
-    /// Adds a splat with its weights, and with its part in the cover for a weight of 1.
+    /// Adds a splat with its weights. For a weight of 1, it adds `cover` to the cover.
     #[inline(always)]
     fn add(&mut self, number: u32, weight: Values, shape: &Values, cover: f32) {
         for row in 0..SIDE {
@@ -106,7 +106,7 @@ impl Sums {
 }
 
 impl Gathered {
-    /// Memory for one square after the other.
+    /// Empty sums. You can use them for one square after the other.
     pub(super) fn new() -> Self {
         Self { on: Sums::new(), before: Sums::new(), raised: Vec::new() }
     }
@@ -152,7 +152,8 @@ impl pulp::WithSimd for Gather<'_> {
     }
 }
 
-/// Weighs the splats that reach out before the mesh. Only the splats of the nearest surface count.
+/// Adds the weights of the splats that reach out in front of the mesh. Only splats of the nearest
+/// surface count.
 #[inline(always)]
 fn raise(square: &Square, splats: &[StrokeSplat], squarings: u32, into: &mut Gathered) {
     let mut nearest = [[f32::INFINITY; SIDE]; SIDE];
@@ -268,7 +269,7 @@ pub(super) fn shown<'a>(
     }
 }
 
-/// Weights times [`SCALE`], squared so many times.
+/// Weights times [`SCALE`], squared `squarings` times.
 #[inline(always)]
 fn powered(mut weights: Values, squarings: u32) -> Values {
     weights.iter_mut().flatten().for_each(|weight| *weight *= SCALE);
@@ -294,11 +295,11 @@ fn any(values: &Values) -> bool {
     values.iter().flatten().fold(0.0, |most, &value| greater(value, most)) > 0.0
 }
 
-/// Cover below which the strokes of the lowest layer thin out.
+/// Where the cover is below this, the strokes of the lowest layer thin out.
 pub(super) const THIN: f32 = 1e-3;
 
-/// Sums of weights over which strokes beyond an outline come in, from none to full cover, at the
-/// least overhang. The first falls to 0 at the full overhang.
+/// Between these sums of weights, strokes beyond an outline change from no cover to full cover.
+/// This holds for an overhang of 0. With a full overhang the first sum is 0.
 const OVERHANG: [f32; 2] = [0.7, 0.9];
 
 /// How much further the highest ridges of a stroke reach beyond an outline than its furrows.
@@ -310,7 +311,8 @@ pub(super) struct Divide<'a> {
     pub(super) coloring: &'a Coloring,
     /// How far strokes reach beyond outlines, 0 to 1.
     pub(super) overhang: f32,
-    /// Cover around which strokes on the mesh end, above 0, up to [`THIN`] for the lowest layer.
+    /// Strokes on the mesh end where the cover falls to about this. Above 0. Values up to [`THIN`]
+    /// mean the lowest layer.
     pub(super) thin: f32,
 }
 
@@ -335,7 +337,7 @@ impl Divide<'_> {
         ([mixed.x, mixed.y, mixed.z, cover], before.w * over + on.w * rest)
     }
 
-    /// Shares of a pixel that show strokes before the mesh, and strokes on it.
+    /// Shares of a pixel that show strokes in front of the mesh, and strokes on it.
     #[inline(always)]
     pub(super) fn shares(
         &self,
@@ -374,7 +376,7 @@ impl Divide<'_> {
         if over <= 0.0 { [0.0, under] } else { [over, (1.0 - over) * under] }
     }
 
-    /// Whether these strokes are the lowest.
+    /// Whether these are the strokes of the lowest layer.
     #[inline(always)]
     fn lowest(&self) -> bool {
         self.thin <= THIN

@@ -382,8 +382,8 @@ mod strange_tests {
         Framing { aspect: 4.0 / 3.0, ..Framing::default() }.fit(&mesh.positions)
     }
 
-    /// Paints a mesh. Every number of the picture is finite. Returns the number of pixels that show the
-    /// mesh, and of those that strokes cover.
+    /// Paints a mesh and checks that every number of the picture is finite. Returns the number of
+    /// pixels that show the mesh, and how many of them strokes cover.
     fn covered(mesh: &Mesh, camera: &Camera) -> [usize; 2] {
         let mut painter = painter(mesh).unwrap();
         let (depth, _) = painter.splats(camera, SIZE, 0.0).unwrap();
@@ -402,7 +402,7 @@ mod strange_tests {
         assert!(seen >= least && painted * 100 >= seen * 99, "{painted} of {seen}");
     }
 
-    /// The flat square in cells of this number.
+    /// The flat square as a grid of this number of columns and rows.
     fn square(columns: usize, rows: usize) -> Mesh {
         let mut mesh = Mesh { materials: vec![Material::plain([0.8; 3])], ..Mesh::default() };
         mesh.add_grid(GridSize { columns, rows }, 0, |at| {

@@ -29,13 +29,13 @@ pub(super) type PackedSums = [[f32; LANES]; GROUPS];
 #[derive(Debug, Clone)]
 pub(super) struct PaintTones {
     pub(super) of: PaintOfSamples,
-    /// Places in [`Amounts`] of the channels in use, in their order.
+    /// Indices in [`Amounts`] of the channels in use, rising.
     channels: Vec<usize>,
-    /// Groups of channels of a texel.
+    /// Number of groups of channels in a texel.
     groups: usize,
-    /// mm of a step, by place in [`Amounts`].
+    /// Width of a step in mm, for each channel of [`Amounts`].
     step: Amounts,
-    /// Each slice with its sizes, the largest first.
+    /// Each slice in several sizes, the largest first.
     slices: Vec<Vec<Packed>>,
 }
 
@@ -216,7 +216,7 @@ pub enum PaintOfMapsError {
     Pigments,
 }
 
-/// Cells that share the work of one thread at least.
+/// Least number of cells that a thread computes.
 const CELLS: usize = 4096;
 
 /// The layer with the amounts of each cell, rounded to whole quanta. Cells are `cell_mm` wide.
@@ -247,7 +247,7 @@ mod tests {
     use pigment::{PigmentId, PigmentLibrary};
     use std::sync::Arc;
 
-    /// Slots of a map alone.
+    /// The common slots if there is one map only: its own slots.
     const SAME: [usize; SLOTS] = [0, 1, 2, 3, 4, 5, 6, 7];
 
     /// Pigments of every second slot, some of them rare, and vehicle.

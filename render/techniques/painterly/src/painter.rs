@@ -33,7 +33,7 @@ use super::splats::StrokeSplat;
 use super::strokes::{Sight, outlines, phase, ranks, splats};
 use super::tones::{ToneMemory, Tones};
 
-/// Cover around which the strokes of upper layers end.
+/// Strokes of upper layers end where their cover falls to about this.
 const THIN_ABOVE: f32 = 0.7;
 
 /// Distance of strokes in mm if a map does not give it. This is the distance of a small flat brush.
@@ -67,7 +67,8 @@ pub struct Painter {
     pub(super) ground: Option<BuiltGround>,
     /// Distance of strokes of the first map in mm.
     spacing_mm: f64,
-    /// Units of the subject along the longer side of the picture of the settings.
+    /// Length of the longer side of a picture, in units of the subject, if strokes have the size of
+    /// the settings.
     units: f32,
     matched: f64,
 }
@@ -256,7 +257,7 @@ impl Painter {
         self.tones.tone(splat.slice as usize)
     }
 
-    /// How the sums of a layer become pixels.
+    /// The values by which the sums of a layer become pixels.
     pub(super) fn divide(&self, layer: usize) -> Divide<'_> {
         divide(&self.tones, &self.layers[layer], layer, &self.settings.overlap)
     }
@@ -313,7 +314,8 @@ impl Painter {
         self.film
     }
 
-    /// Width of a cell in mm of a painting of so many cells: strokes have their size in mm.
+    /// Width of a cell in mm, for a painting of `size` cells. It follows from the width of a stroke
+    /// in mm.
     pub(super) fn cell_mm(&self, size: (usize, usize)) -> f64 {
         self.spacing_mm / f64::from(self.settings.for_size(size.0, size.1).strokes.width_px)
     }
@@ -329,7 +331,7 @@ impl Painter {
     }
 }
 
-/// How the sums of a layer become pixels.
+/// The values by which the sums of a layer become pixels.
 fn divide<'a>(
     tones: &'a Tones,
     layer: &'a Layered,
@@ -556,7 +558,7 @@ pub enum PainterError {
     NoTile,
     /// The map has no pigments, or the width of its texels is unknown.
     #[error("the art map has colours only")]
-    #[hint("build a map of samples from an impasto painting or a painted style")]
+    #[hint("build the map from samples of an impasto painting, or name a [style] such as oil-flat")]
     #[fault(Input)]
     NoPaint,
     /// The colours of the subject cannot be painted.
@@ -581,12 +583,12 @@ pub enum PainterError {
         /// The time asked for.
         seconds: f64,
     },
-    /// The work was asked to end.
+    /// The task was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
-    /// The camera looks nowhere.
+    /// The camera has no viewing direction, or upwards is along it.
     #[error("the camera at {eye} looks at {target}, with {up} upwards")]
-    #[hint("place the eye away from its target, and let upwards point elsewhere than there")]
+    #[hint("place the eye away from its target, and choose an upwards direction that is not along the view")]
     Camera {
         /// Its eye.
         eye: Vec3,
@@ -597,7 +599,8 @@ pub enum PainterError {
     },
 }
 
-/// Maps with their names, and the regions that are painted with one or another.
+/// Maps with their names, and the regions of a subject. A region may name the map that it is
+/// painted with.
 #[derive(Debug, Clone)]
 pub struct Brushwork<'a> {
     /// At least one map. We use the first for everything that no region covers.

@@ -20,7 +20,7 @@ use super::painter::{BuiltGround, Painter, PainterError, over};
 use super::passes::amounts;
 use super::splats::{Lists, SIDE, StrokeSplat};
 
-/// Amounts of all layers, and what they are amounts of.
+/// Amounts of pigments of all layers, and the pigments.
 struct Mixed {
     of: PaintOfSamples,
     layers: Vec<Field<Amounts>>,
@@ -116,10 +116,10 @@ impl Painter {
 const FAR: f32 = 0.15;
 
 impl Painter {
-    /// The steps to the picture that [`Self::paint`] gives. You get the depth first. For each layer
-    /// you get the strokes (each in a colour of its own where it is the strongest), their
-    /// directions (as hues: red level, cyan upright), their tones and what they paint, the height
-    /// of the brushwork, and the picture.
+    /// The steps to the picture that [`Self::paint`] gives. The first step is the depth. For each
+    /// layer, four steps show its strokes (each in a colour of its own where it is the strongest),
+    /// their directions (as hues: red level, cyan upright), their tones, and what they paint. The
+    /// last two steps are the height of the brushwork and the picture.
     ///
     /// # Errors
     /// The errors of [`Self::paint`].
@@ -194,7 +194,7 @@ pub(super) fn strongest(depth: &Field<f32>, splats: &[StrokeSplat]) -> Field<Opt
     strongest
 }
 
-/// Depth as grey: the nearest white, nothing bare.
+/// Depth as grey, the nearest white. Pixels that do not show the subject are transparent.
 fn greys(depth: &Field<f32>) -> Field<[f32; 4]> {
     let seen = depth.values().iter().copied().filter(|depth| *depth < 1.0);
     let near = seen.clone().fold(1.0, f32::min);
@@ -243,7 +243,7 @@ fn hue(angle: f32) -> Vec3 {
     Vec3::new(0.0, third, 2.0 * third).map(|shift| 0.5 + 0.5 * (angle - shift).cos())
 }
 
-/// Width of a pixel in mm: 96 to the inch.
+/// Width of a pixel in mm: 96 pixels per inch.
 const PX_MM: f64 = 25.4 / 96.0;
 
 /// A frame for compositing cannot be made.

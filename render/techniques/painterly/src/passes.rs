@@ -163,7 +163,8 @@ mod device_tests {
             painted(compute, (&depth, splats), &divide, &memory, overlap).unwrap()
         }
 
-        /// Paints on both and compares. Returns the picture of the processor.
+        /// Paints on the processor and on the device, and compares both. Returns the picture of the
+        /// processor.
         fn compare(
             &self,
             gpu: &mut Compute,
@@ -344,14 +345,14 @@ struct PackedStroke {
     across: [f32; 2],
     along: [f32; 2],
     slope: [f32; 2],
-    /// From the centre of the first texel, in widths of the map.
+    /// Place in the map from the centre of the first texel, in widths of the map.
     offset: [f32; 2],
     extent: [f32; 2],
     depth: f32,
     /// 1 / tolerance.
     tightness: f32,
     weight: f32,
-    /// Part in the cover for a weight of 1.
+    /// Amount that the splat adds to the cover, for a weight of 1.
     cover: f32,
     /// Black for splats without colours of their own.
     color: [f32; 4],
@@ -629,8 +630,9 @@ mod tests {
         OverlapSettings { sharpness, ..OverlapSettings::default() }
     }
 
-    /// The red of a pixel and the sum of weights before the power, summed in f64 over all splats: weights exp(-4.5 d^2) to a power, by the
-    /// square of the height of their texel.
+    /// The red of a pixel and the sum of the weights before they are raised to the power. This sums
+    /// over all splats in f64. A weight is exp(-4.5 d^2) to a power, times the square of the height
+    /// of the texel.
     fn summed(
         splats: &[StrokeSplat],
         tones: &Tones,

@@ -28,13 +28,14 @@ use super::settings::{Settings, ToneSource};
 /// Most vertices along the longer side of a plane, and of a relief.
 const MOST_VERTICES: [f32; 2] = [160.0, 256.0];
 
-/// Widest margin beyond the edges, by the longer side.
+/// Widest margin beyond the edges, relative to the longer side.
 const MOST_MARGIN: f32 = 0.25;
 
 /// Standard deviation of the structure tensor, in distances of strokes.
 const TENSOR: f64 = 0.6;
 
-/// A picture shows each of its strokes once.
+/// We keep strokes up to this many times the density that the picture needs. Hardly more than 1,
+/// because the picture is always seen at one size.
 const MORE: f32 = 1.02;
 
 impl Painter {
@@ -322,7 +323,7 @@ mod flow_tests {
 /// exact middle.
 const STILL: f32 = 0.01;
 
-/// Form of a picture. The default has none.
+/// Optional depth, directions and flow of a picture. By default it has none.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PictureForm {
     /// Depth from 0 (far) to 1 (near), stretched over the picture.
@@ -373,9 +374,9 @@ impl PictureForm {
 }
 
 impl FlowPicture {
-    /// Reads a picture of arrows. Red points to the right and green upwards, both about one half.
-    /// Blue is the strength. You leave a place without an arrow by neutral pixels (one half each),
-    /// or pixels of no strength.
+    /// Reads a picture of arrows. Red gives the part to the right and green the part upwards, where
+    /// one half is 0. Blue is the strength. Pixels with red and green of one half, or with no blue,
+    /// have no arrow.
     ///
     /// # Errors
     /// [`PhotographError`] with the path.
@@ -412,7 +413,7 @@ impl FlowPicture {
     }
 }
 
-/// Cells of a layer to the distance of its strokes.
+/// Number of cells of a layer for each distance of its strokes.
 const CELLS: f32 = 3.0;
 
 /// With default settings, smaller strokes show where colours differ by more than this in CIELAB.
@@ -481,7 +482,7 @@ impl LayerColors {
     }
 }
 
-/// Mean colours of a picture in about so many cells along its longer side. A picture with fewer
+/// Mean colours of a picture, in about `cells` cells along its longer side. A picture with fewer
 /// pixels keeps them.
 fn at_strokes(photograph: &Photograph, cells: f32) -> Picture {
     let (width, height) = photograph.size();

@@ -16,7 +16,7 @@ use super::settings::LayerSettings;
 /// Rounds of averaging normals before curvature is found.
 pub(super) const NORMAL_ROUNDS: usize = 1;
 
-/// Rings of edges over which flow rises beside singular places.
+/// The strength of flow rises over this many rings of edges around singular places.
 const FADE_RINGS: usize = 2;
 
 /// A point of the subject that carries a stroke.
@@ -42,8 +42,8 @@ pub(super) struct Place {
 #[derive(Debug, Clone)]
 pub(super) enum Detail {
     Everywhere,
-    /// Where the surface bends more within this length, in units of the model, than settings let
-    /// pass (radians).
+    /// Where the surface bends by a large angle within this length, which is in units of the model.
+    /// The settings say how large.
     Bends(f32, LayerSettings),
     /// By a picture of 0 to 1, which is stretched over the texture coordinates.
     Pictured(Field<f32>),
@@ -72,8 +72,8 @@ pub(super) struct Directions {
 }
 
 impl Directions {
-    /// Strokes along `lines` of a mesh. If you give arrows for its vertices, flow has their signs
-    /// and strengths, up to 1.
+    /// Strokes along `lines` of a mesh. If you give arrows for its vertices, flow has the sense and
+    /// the strength of the arrows, up to 1.
     pub(super) fn new(mesh: &Mesh, lines: DirectionField, given: Option<&[[f32; 3]]>) -> Self {
         let arrows = match given {
             None => lines.oriented(FADE_RINGS),
@@ -168,7 +168,7 @@ impl Detail {
     }
 }
 
-/// The root of the sum of squares of a curvature, at least the greatest.
+/// The root of the sum of squares of a curvature, which is at least the greatest curvature.
 fn size_of(bend: &Mat3) -> f32 {
     let squares = [bend.x_axis, bend.y_axis, bend.z_axis].map(Vec3::length_squared);
     squares.iter().sum::<f32>().sqrt()
@@ -230,7 +230,7 @@ pub(super) fn colors(mesh: &Mesh, packed: &PackedMesh) -> Vec<(Vec3, f64)> {
 
 #[derive(Debug)]
 pub(super) struct Subject {
-    /// Its surface for the strokes of each layer, the lowest first, at least one.
+    /// The surface of the subject for the strokes of each layer, the lowest first, at least one.
     pub(super) surfaces: Vec<Surface>,
     /// The mesh that hides what lies behind it.
     pub(super) packed: Arc<PackedMesh>,

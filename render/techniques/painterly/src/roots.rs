@@ -23,7 +23,7 @@ use super::tones::Tones;
 /// Least cosine between the normals of strokes that continue each other.
 const ALIKE: f32 = 0.6;
 
-/// Numbers of a feature's random offsets.
+/// Which random numbers of a feature give the random place in the map where its stroke starts.
 const RANDOM: [u64; 2] = [16, 17];
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,12 +44,13 @@ pub(super) struct Root {
 pub(super) struct Start {
     /// Place in the map of the origin of the patch, in widths of the map.
     pub(super) origin: Vec2,
-    /// From the origin across and along the strokes, in units of the model.
+    /// Way from the origin, across and along the strokes, in units of the model.
     pub(super) way: Vec2,
 }
 
 impl Start {
-    /// Place in the map, 0 to 1 in widths of the map, with so many widths to a unit of the model.
+    /// Place in the map, 0 to 1 in widths of the map. A unit of the model is `widths_per_unit`
+    /// widths.
     pub(super) fn at(&self, widths_per_unit: f32) -> Vec2 {
         let place = self.origin + self.way * widths_per_unit;
         place - place.floor()
@@ -99,8 +100,8 @@ pub(super) struct Roots {
 }
 
 impl Roots {
-    /// Strokes on a surface, none of them kept. Their tone follows the colour of the surface, from
-    /// the first L* to the last, or else light.
+    /// Strokes on a surface, none of them kept. With `lightness`, their tone follows the colour of
+    /// the surface, from the first L* to the last. Without, it follows the light.
     pub(super) fn new(
         surface: Surface,
         coloring: Arc<Coloring>,
@@ -210,10 +211,10 @@ impl Roots {
     }
 }
 
-/// Random candidates beside the continuations.
+/// Number of random candidates, besides the places that continue a neighbour.
 const OFFSETS_RANDOM: u64 = 64;
 
-/// Number of a feature's first random candidate.
+/// Which random number of a feature gives its first random candidate.
 const FIRST_RANDOM: u64 = 32;
 
 const NEIGHBOURS: usize = 10;
@@ -221,13 +222,13 @@ const NEIGHBOURS: usize = 10;
 /// Radius of a patch of the model that goes on in the map, in half lengths of splats.
 const PATCH: f32 = 6.0;
 
-/// Texels between strokes where they are compared.
+/// Distance of strokes, in texels, at which we compare the brushwork.
 const COMPARED_SPACING: f32 = 4.0;
 
 /// Mean squared difference, relative to unrelated places, at which a continuation is good enough.
 const GOOD: f32 = 0.02;
 
-/// Places of a splat at which it is compared, by half its width and length.
+/// Places at which we compare splats, relative to half their width and half their length.
 const PROBES: [[f32; 2]; 21] = [
     [0.0, 0.0],
     [0.35, 0.0],
@@ -306,7 +307,7 @@ impl Greys {
 
 /// The values that a stroke is compared with at one of its places.
 struct Probe {
-    /// From its centre, in widths of the map.
+    /// Place from the centre of the stroke, in widths of the map.
     place: Vec2,
     grey: f32,
     weight: f32,
@@ -322,7 +323,7 @@ impl Matching<'_> {
         self.radii.map(|radius| radius * self.style(index).size)
     }
 
-    /// Widths of the map of a stroke to a unit of the model.
+    /// Number of widths of the map in a unit of the model, for one stroke.
     fn widths_per_unit(&self, index: usize) -> f32 {
         let Style { map, size, .. } = *self.style(index);
         let map = self.tones.map(map);

@@ -31,7 +31,7 @@ pub struct StrokeSplat {
     pub tolerance: f32,
     /// Weight at the centre against other splats, above 0: up to 1, and more for outlines.
     pub weight: f32,
-    /// Part in the cover beyond outlines at the centre, above 0 to 1.
+    /// Amount that the splat adds to the cover at its centre, above 0 and up to 1.
     pub cover: f32,
     /// Place in the map at the centre, in widths of the map.
     pub offset: [f32; 2],
@@ -144,7 +144,7 @@ fn reaches(splat: &StrokeSplat, column: usize, row: usize) -> bool {
 /// A value for each pixel of a square.
 pub(super) type Values = [[f32; SIDE]; SIDE];
 
-/// Depth of a pixel without a surface.
+/// Depth of a pixel at which there is no surface.
 const NOTHING: f32 = 1.0;
 
 #[derive(Debug, Clone)]
@@ -155,14 +155,14 @@ pub(super) struct Square {
     range: [f32; 2],
 }
 
-/// How a splat lies to the mesh in a square.
+/// Where a splat lies relative to the mesh, over a square.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Lie {
     /// Behind the mesh everywhere.
     Hidden,
     /// On the mesh everywhere.
     On,
-    /// Mixed: at some pixels you see something else behind the splat, or before it.
+    /// Anything else: for example, in front of the mesh, or on it at some pixels only.
     Mixed,
 }
 
@@ -272,8 +272,8 @@ fn bell(square: f32) -> f32 {
     if square < 1.0 { bell } else { 0.0 }
 }
 
-/// How fast a splat recedes towards its end, in tolerances: its weight of 1/(1 + n) lies n times
-/// this behind its plane. So no splat is nearest where it has no weight.
+/// How fast a splat recedes towards its edge. Where its weight is 1/(1 + n), it counts n times this
+/// share of its tolerance farther away. So no splat is nearest where it has no weight.
 const BOWL: f32 = 0.1;
 
 /// The depth at which a splat counts: its plane, bent back where its weight is low.
@@ -291,7 +291,7 @@ pub(super) fn bowl(splat: &StrokeSplat, plane: &Values, weight: &Values) -> Valu
     bowl
 }
 
-/// Brings the nearest depth forward to a splat's.
+/// Replaces the nearest depth by the depth of a splat where the splat is nearer.
 #[inline(always)]
 pub(super) fn bring_forward(nearest: &mut Values, bowl: &Values) {
     for (nearest, bowl) in nearest.iter_mut().zip(bowl) {

@@ -37,16 +37,17 @@ const LENGTH: [f32; 2] = [0.05, 0.35];
 /// Weight of strokes that run towards the eye. With this they show only where there are no others.
 const FORESHORTENED: f32 = 0.01;
 
-/// Ratio of distances within which places are about as far as the middle of the model.
+/// Places count as equally far as the middle of the model if the ratio of the distances is at most
+/// this.
 const CALM: f32 = 1.25;
 
-/// Steepest plane of a splat, in lengths away from the eye by lengths across.
+/// Steepest plane of a splat: length away from the eye per length across the view.
 const STEEPEST: f32 = 2.0;
 
-/// Numbers of the random parts of a feature's place in the map.
+/// Which random numbers of a feature give the random part of its place in the map.
 const NOISE: [u64; 2] = [18, 19];
 
-/// Number of the random time at which a stroke twinkles.
+/// Which random number of a feature gives the time at which its stroke twinkles.
 const TWINKLE: u64 = 20;
 
 /// One picture to paint.
@@ -67,7 +68,8 @@ pub(super) struct Sight<'a> {
     pub(super) closed: &'a [bool],
 }
 
-/// Ranks in splats per pixel: up to the first they have full weight, at the second none.
+/// A splat has full weight up to the first rank and none from the second on. Ranks are in splats
+/// per pixel.
 pub(super) fn ranks(settings: &Settings) -> [f32; 2] {
     let [across, along] = settings.strokes.radii_px();
     let density = settings.overlap.splats / (std::f32::consts::PI * across * along);
@@ -226,7 +228,8 @@ impl Brushed {
 }
 
 impl Sight<'_> {
-    /// Size of strokes relative to the settings, where a unit of the model has so many pixels.
+    /// Size of strokes relative to the settings, where a unit of the model has `px_per_unit`
+    /// pixels.
     fn zoom(&self, px_per_unit: f32) -> f32 {
         match self.settings.strokes.zoom {
             Zoom::Screen => 1.0,
@@ -241,9 +244,9 @@ impl Sight<'_> {
     }
 }
 
-/// Distance by which strokes go on in each other. For all places that are about as far as the
-/// middle of the model, this is the distance of the middle, so that strokes do not slide in the map
-/// while the model turns.
+/// Distance from the eye by which we scale the way between strokes in the map. For all places that
+/// are about as far as the middle of the model, this is the distance of the middle, so that strokes
+/// do not slide in the map while the model turns.
 fn calm_distance(own: f32, middle: f32) -> f32 {
     let [nearest, farthest] = [middle / CALM, middle * CALM];
     if own < nearest {
@@ -255,17 +258,17 @@ fn calm_distance(own: f32, middle: f32) -> f32 {
     }
 }
 
-/// Splats of a line per area of a splat, where the surface faces the eye. There are more towards
-/// outlines.
+/// Number of splats of an outline per area of a splat, where the surface faces the eye. There are
+/// more towards outlines.
 const DENSITY: f32 = 1.5;
 
-/// Length of a splat by its width.
+/// Length of a splat relative to its width.
 const STRETCH: f32 = 4.0;
 
 /// Half the width of a splat relative to the line.
 const RADIUS: f32 = 0.8;
 
-/// Part of the line in pixels behind the outline, by its width.
+/// Share of the width of the line, in pixels, that lies behind the outline.
 const BEHIND: f32 = 0.5;
 
 /// Greatest cosine at which a place belongs to an outline, however much the surface bends.
@@ -277,7 +280,7 @@ const UNEVEN: f32 = 0.2;
 /// Weight against other strokes, after it is raised to the power of the sharpness.
 const STRENGTH: f32 = 256.0;
 
-/// Part of a splat in the cover beyond outlines.
+/// Amount that a splat of an outline adds to the cover.
 const COVER: f32 = 1.0;
 
 /// The splats of outlines, in an order that does not depend on the sight. If lines have no width,

@@ -13,10 +13,10 @@ use rayon::prelude::*;
 
 use super::coloring::Coloring;
 
-/// Change of intensity between slices, of 255 (k of Yan and others 2008, equation 7).
+/// Change of intensity between slices, in levels of 255 (k of Yan and others 2008, equation 7).
 const STEP: f64 = 5.0;
 
-/// We do not halve sizes below this.
+/// We halve sizes down to this width in texels.
 pub(super) const LEAST_SIZE: usize = 16;
 
 /// Heights further than this many standard deviations from the mean are cut.
@@ -57,7 +57,8 @@ struct Slice {
     sizes: Vec<Texels>,
 }
 
-/// A tile of one tone at one size. Bytes take a fifth of the memory that numbers need.
+/// A tile of one tone at one size. It has a byte for each channel, which takes a fourth of the
+/// memory of f32.
 #[derive(Debug, Clone)]
 pub(super) struct Texels {
     pub(super) size: usize,
@@ -333,7 +334,8 @@ fn packed(size: usize, values: &Values, low: [f32; CHANNELS], step: [f32; CHANNE
     }
 }
 
-/// Tones in the memory of whatever computes. The processor reads [`Tones`] themselves.
+/// Tones in the memory of the device that computes. The processor needs no copy, since it reads
+/// [`Tones`] themselves.
 #[derive(Debug, Clone)]
 pub(super) enum ToneMemory {
     /// The processor's memory.
@@ -411,7 +413,7 @@ impl DeviceTones {
         self.texels.buffer()
     }
 
-    /// Encoded values of linear ones.
+    /// Table from linear to encoded values.
     pub(super) fn encoded(&self) -> &Buffer {
         self.encoded.buffer()
     }

@@ -83,8 +83,8 @@ impl Count<'_> {
 
 impl Painter<'_> {
     /// Paints on the bare canvas of `session`, which `script` describes. We add all actions to the
-    /// script. If you play it, you get this painting again, bit for bit. `task` counts the strokes
-    /// of all those planned so far.
+    /// script. If you play it, you get this painting again, bit for bit. `task` shows how many of
+    /// the strokes planned so far are painted.
     ///
     /// # Errors
     /// [`PainterError`] for brushes that do not suit the canvas, if the device was lost, or if
@@ -186,7 +186,7 @@ impl Painter<'_> {
         plan_strokes(target, current, self.separation, &plan, cell_mm)
     }
 
-    /// Heights that the brush lays.
+    /// Measures how thick a film the brush lays, by its load.
     fn measured(
         &self,
         painting: &Painting,
@@ -304,7 +304,7 @@ pub enum PainterError {
     #[error("a stroke could not be painted")]
     #[hint(inner)]
     Stroke(#[from] ReplayError<Infallible>),
-    /// The work was asked to end.
+    /// The task was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }

@@ -281,13 +281,14 @@ fn point_distance(a: [f64; 2], b: [f64; 2]) -> f64 {
 /// Standard deviation of the blur at which pictures are compared, in brush widths (chosen by
 /// eye).
 pub(super) const BLUR_SIZES: f64 = 0.2;
-/// Change of the target in CIELAB over the width of a brush from which on it is detail (chosen by
-/// eye).
+/// If the target changes by this much in CIELAB over the width of a brush, it counts as detail
+/// there (chosen by eye).
 const DETAIL: f32 = 16.0;
 /// Factor on differences where the target does not change at all (chosen by eye).
 const SMOOTH: f32 = 0.5;
 
-/// All that the strokes of a level need of the target. This stays while the canvas changes.
+/// Everything about the target that the strokes of a level need. It stays the same while the canvas
+/// changes.
 #[derive(Debug)]
 pub(super) struct LevelTarget {
     /// Index of the brush in the plan.
@@ -366,7 +367,7 @@ fn leave_smooth_alone(difference: &mut Field<f32>, target_lab: &Field<[f32; 3]>,
     }
 }
 
-/// Brush widths that a stroke runs on over others of its level.
+/// Number of brush widths by which a stroke may run over other strokes of its level.
 const OVERLAP: f64 = 1.0;
 
 /// Greatest turn of a stroke in radians over a brush width: in tighter bends the outer side of the
@@ -387,8 +388,9 @@ pub(super) struct TraceInput<'a> {
     pub(super) size: f64,
 }
 
-/// Path of a stroke from `start`, as points in cells that lie at most half a brush apart.
-/// Points lie up to a whole brush beyond the canvas, so that the brush leaves only there.
+/// Path of a stroke from `start`, as points in cells that lie at most half a brush apart. A path
+/// that reaches the edge goes on up to a whole brush beyond the canvas, so that the brush lifts off
+/// outside.
 pub(super) fn trace_path(input: &TraceInput<'_>, plan: &Plan, start: [f64; 2]) -> Vec<[f64; 2]> {
     let cell = cell(input.target, start);
     let color = input.target[cell];

@@ -151,8 +151,8 @@ impl StrokePainter {
         &self.ground
     }
 
-    /// Paints on the device that `backend` chooses. `task` counts the strokes of all those
-    /// planned so far.
+    /// Paints on the device that `backend` chooses. `task` shows how many of the strokes planned so
+    /// far are painted.
     ///
     /// # Errors
     /// [`StrokePainterError`] if the device cannot be used or was lost, or if `task` was
@@ -255,7 +255,7 @@ pub enum StrokePainterError {
     /// The painting cannot go on.
     #[error(transparent)]
     Strokes(#[from] PainterError),
-    /// The work was asked to end.
+    /// The task was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }

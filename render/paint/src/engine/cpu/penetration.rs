@@ -38,14 +38,15 @@ pub(super) struct PenetrationMap {
     changing: Spans,
     /// Columns with tops that we compute because flows depend on them.
     seen: Spans,
-    /// Coats in quanta of the cells in contact, with the rim. Other cells have undefined values.
+    /// Coat of each cell, in quanta: the thickness of the film that the head leaves there. The rows
+    /// have a rim like the rows of `tops`. Only cells in contact have a valid coat.
     coats: Vec<u32>,
     /// Heights in quanta of the bed of one row of the contact.
     bed: Vec<i32>,
     /// Mean volumes of the hair above the cells of one row of the contact.
     means: Vec<u32>,
-    /// Whether each column is crowded or covered, with the rim. If no column is, this is empty,
-    /// which is nearly always so without a mask.
+    /// Whether each column is crowded or covered by the mask. The rows have a rim like the rows of
+    /// `tops`. If no column is, this is empty, which is nearly always so without a mask.
     crowded: Vec<bool>,
 }
 

@@ -247,8 +247,9 @@ impl GpuPaint {
         let view = self.view_buffers(view)?;
         let size = self.canvas_size();
         let Self { device, recording, wet, floor, dry, tops, .. } = self;
-        let tops = &tops.record(device, recording, wet, floor)?;
-        view.record(recording, &CanvasBuffers { size, wet, tops, dry }, scene, baked, shown);
+        let surface_heights = &tops.record(device, recording, wet, floor)?;
+        let canvas = CanvasBuffers { size, wet, surface_heights, dry };
+        view.record(recording, &canvas, scene, baked, shown);
         self.submit()
     }
 

@@ -164,7 +164,7 @@ pub(super) struct CanvasBuffers<'a> {
     pub(super) size: [u32; 2],
     pub(super) wet: &'a PaintBuffers,
     /// Height of the surface of each cell in quanta.
-    pub(super) tops: &'a Buffer,
+    pub(super) surface_heights: &'a Buffer,
     pub(super) dry: &'a [PaintBuffers],
 }
 
@@ -301,7 +301,8 @@ impl ViewBuffers {
             padding: 0,
         };
         let PaintBuffers { pigments, vehicle } = canvas.wet;
-        let buffers = [pigments, vehicle, canvas.tops, &self.baked, &self.material, &self.picture];
+        let heights = canvas.surface_heights;
+        let buffers = [pigments, vehicle, heights, &self.baked, &self.material, &self.picture];
         recording.dispatch(&SHOW, &params, &buffers, workgroups(tiles, CELLS_AT_ONCE));
     }
 }

@@ -24,7 +24,8 @@ impl ArtMap {
 /// We measure in-betweens at these shares of the way to the lighter tile.
 const SHARES: [f32; 3] = [0.25, 0.5, 0.75];
 
-/// Unevenness over a longer distance than this, in spacings, is not a stroke.
+/// Unevenness over a longer distance than this does not count as strokes. In distances of
+/// neighbouring strokes.
 const LEVELLED: f64 = 4.0;
 
 /// Figures of a map, as `ArtMap::figures` measures them.
@@ -144,7 +145,7 @@ impl ArtMap {
     }
 }
 
-/// Least coherence of a tile with the first one or with its neighbour on the way there. For
+/// Least coherence of a tile with the first tile, or with the next tile towards the first. For
 /// comparison, independent synthesis stays below 0.15.
 const COHERENCE: f64 = 0.60;
 /// Largest step across the borders over the steps within a tile, unless places within it vary
@@ -154,8 +155,8 @@ const WRAP: f64 = 1.05;
 const CONTRAST: f64 = 0.93;
 /// The tone of an in-between may differ by this from the weighted mean, in L*.
 const TONE: f64 = 0.5;
-/// Least distance of neighbouring tones in L*. This is a step k of 5 of 255 levels, below which
-/// Yan and others (2008, equation 7) have no tile in between.
+/// Least distance of neighbouring tones in L*. This is the step k of Yan and others (2008, equation
+/// 7), which is 5 of 255 levels: for closer tones they make no tile in between.
 const STEP: f64 = 5.0 / 2.55;
 /// Least distance of the darkest from the lightest tone in L*. We chose this ourselves: with less,
 /// you can hardly tell light and shade of a model apart.

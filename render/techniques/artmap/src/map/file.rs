@@ -135,10 +135,11 @@ impl FileHeader {
         })
     }
 
-    /// The description with its own digest, as JSON in ASCII.
+    /// The description as JSON in ASCII, with its own digest.
     ///
     /// # Errors
-    /// [`TexelFileError::Unwritable`] if it could not be read again as it is, with `paint`.
+    /// [`TexelFileError::Unwritable`] if reading this JSON would not give back the description and
+    /// `paint`.
     fn into_json_with_digest(
         mut self,
         paint: Option<&PaintOfSamples>,
@@ -273,7 +274,7 @@ fn key_map(header: &KeyHeader, part: &PartPlanes, pigments: Option<&[PigmentChan
     KeyMap { name: header.name.clone(), tile, sources, tone: header.tone }
 }
 
-/// Decodes a map from `bytes`, the content of `file`. We use the name in errors only.
+/// Decodes a map from `bytes`, the content of `file`. Only errors use this name.
 ///
 /// # Errors
 /// [`TexelFileError`] if the content is not OpenEXR, holds no art map, is of a newer version,
@@ -456,8 +457,8 @@ mod tests {
         assert!(ArtMap::open(&path).unwrap() == map());
     }
 
-    /// The parts and the description of `map` as a file, after you changed them. It has the
-    /// digests of the result, as if another program had written it.
+    /// The file of `map` after `change` changed its description and parts. The digests fit the
+    /// changed values, as if another program had written them.
     fn forged(map: &ArtMap, change: impl FnOnce(&mut FileHeader, &mut [PartPlanes])) -> Vec<u8> {
         let mut header = FileHeader::of(map).unwrap();
         let plans = header.plans().into_iter();

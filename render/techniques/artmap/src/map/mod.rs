@@ -123,14 +123,14 @@ impl ArtMap {
     }
 }
 
-/// Where strokes dissolve, this share of the change happens at a time.
+/// In a dissolve, the texels within this share of the order of change are partly changed.
 const BAND: f32 = 0.15;
 /// Deviation of the Gaussian that smooths two tiles, in spacings of strokes.
 const SMOOTH: f64 = 0.25;
 
-/// The ratio of deviation to mean of the difference of L* of two tiles. Up to the first value the
-/// tone changes evenly. From the second on strokes alone change it, for example where lines are
-/// added to lines.
+/// We divide the deviation of the difference in L* of two tiles by its mean. If the ratio is below
+/// the first value, the tone changes evenly. If it is above the second, strokes alone change it,
+/// for example where lines are added to lines.
 const IN_STROKES: [f32; 2] = [1.0, 2.0];
 
 /// How to make a tile between two key tiles.
@@ -152,7 +152,7 @@ pub struct Transition<'a> {
     darker: &'a Tile,
     lighter: &'a Tile,
     labs: [Field<[f32; 3]>; 2],
-    /// When each texel changes, from 0 (first) to 1 (last). `None` where all change all the way.
+    /// When each texel changes, from 0 (first) to 1 (last). `None` if all texels change together.
     ranks: Option<Vec<f32>>,
     /// Share of the difference of tone that changes with the strokes. The rest changes evenly.
     in_strokes: f32,
@@ -226,12 +226,13 @@ impl Transition<'_> {
 struct Mixing {
     share: f32,
     weights: Vec<f32>,
-    /// Share of the difference of the means that changes with the weights.
+    /// Share of the difference of the means that changes with `weights`. The rest changes evenly.
     in_strokes: f32,
 }
 
 impl Mixing {
-    /// Mixes a channel of any sign. This mixes the mean from both tiles by share.
+    /// Mixes a channel of any sign. The mean of the result is the mean of both tiles, mixed by
+    /// `share`.
     fn level<T>(&self, dark: &[T], light: &[T], of: impl Fn(&T) -> f32) -> Vec<f32> {
         let means = [dark, light].map(|texels| mean(texels.iter().map(&of)));
         let step = means[1] - means[0];
@@ -252,8 +253,8 @@ impl Mixing {
         mixed
     }
 
-    /// Mixes a channel of amounts, which are not negative. This mixes the mean from both tiles by
-    /// share.
+    /// Mixes a channel of amounts, which are not negative. The mean of the result is the mean of
+    /// both tiles, mixed by `share`.
     fn amount<T>(&self, dark: &[T], light: &[T], of: impl Fn(&T) -> f32) -> Vec<f32> {
         let mut mixed = self.level(dark, light, of);
         let wanted = mean(mixed.iter().copied());
@@ -378,8 +379,8 @@ fn tile_of(sample: &Sample, sources: &Field<[u16; 2]>) -> Tile {
     Tile { color: Field::from_values(size, size, color), paint, height_mm }
 }
 
-/// Places of the sample that a texel shows. This is its source, and at a seam also what the texels
-/// around it continue to.
+/// Places of the sample that a texel shows: its source. At a seam, also the places that would
+/// continue the sources of the texels around it.
 fn continued(
     sample: &Sample,
     sources: &Field<[u16; 2]>,

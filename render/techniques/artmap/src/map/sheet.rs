@@ -9,7 +9,7 @@ use crate::relief::{raked, raking_tangent, slopes};
 
 const SIDE: usize = 256;
 const GAP: usize = 12;
-/// L* of 60, between the tones of most maps.
+/// Linear grey of the background. Its L* is 60, which lies between the tones of most maps.
 const GROUND: [f32; 3] = [0.281; 3];
 const SHARES: [f32; 3] = [0.25, 0.5, 0.75];
 const REPEATS: usize = 3;

@@ -44,7 +44,7 @@ documents::settings! {
 }
 
 documents::presets! {
-    /// A style that ships.
+    /// A style that ships with this crate.
     pub enum StylePreset of Style {
         OilFlat = "oil-flat", "styles/oil-flat.toml" => "Short strokes of a flat brush in stiff oil paint, like bricks.";
         OilLong = "oil-long", "styles/oil-long.toml" => "Long, slightly bent strokes of a filbert side by side, wet into wet within a coat.";
@@ -156,7 +156,7 @@ impl Style {
         Self::from_toml(&path.display().to_string(), &read_text(path)?)
     }
 
-    /// Parses and checks the TOML text of a style. Errors call the file `file`.
+    /// Parses and checks the TOML text of a style. `file` is the name of the file in errors.
     ///
     /// # Errors
     /// [`StyleError`] for text that is no TOML, unknown or missing keys, and numbers out of range.
@@ -260,7 +260,7 @@ pub enum StyleError {
     TooLarge {
         /// Name of the style.
         style: String,
-        /// Items that are too many.
+        /// The items of which there are too many: cells or strokes.
         what: &'static str,
         /// Number of the items.
         found: f64,

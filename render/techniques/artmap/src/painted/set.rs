@@ -131,7 +131,7 @@ pub enum PaintedError {
     /// The engine refuses a brush or a stroke.
     #[error(transparent)]
     Painting(#[from] PaintingError),
-    /// The work was asked to end.
+    /// The task was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
@@ -302,7 +302,7 @@ mod tests {
         assert!(covered > mean - 16.0 && bare < mean - 20.0, "{mean}: {covered} {bare}");
     }
 
-    /// Paints a whole canvas, for looking at what the swatch cuts away.
+    /// Paints a whole canvas with the margins that a swatch does not have, and the swatch.
     fn painted(style: &Style) -> (Document, Sample) {
         let ladder =
             ToneLadder::new(Arc::new(PigmentLibrary::van_gogh_oils()), "#c9a227", 2, spread(style))

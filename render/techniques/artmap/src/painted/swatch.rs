@@ -2,7 +2,7 @@
 //! with margins, and cuts these away.
 //!
 //! Strokes run along y, from top to bottom. They start at the points of a jittered grid, so that
-//! strokes cover evenly. If strokes differ in something, we draw it from the seed alone.
+//! strokes cover evenly. All random differences of strokes come from the seed.
 
 use std::sync::Arc;
 
@@ -51,7 +51,7 @@ impl Mixtures {
         Self { spread, ends: ladder.shares_about(tone.lab.lightness, spread) }
     }
 
-    /// Shares by slot of the mixture that deviates from the tone by about `lightness` L*.
+    /// Shares by slot of the mixture that is lighter than the tone by about `lightness` L*.
     fn shares(&self, lightness: f64) -> [f64; SLOTS] {
         let [dark, light] = &self.ends;
         let share = (0.5 + lightness / (2.0 * self.spread).max(1e-9)).clamp(0.0, 1.0);
@@ -224,8 +224,8 @@ fn half_mixed(dark: &Layer, light: &Layer, weights: &[f64]) -> Layer {
 }
 
 pub(super) const KNOTS: usize = 20;
-/// Steps of ranks from column to column and from row to row. This is Roberts' sequence R2 (2018):
-/// its first numbers below any share lie evenly on the plane.
+/// Steps of the rank of a stroke from column to column and from row to row. This is Roberts'
+/// sequence R2 (2018): the strokes with ranks below any value lie evenly on the plane.
 const RANK_STEPS: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
 /// A stroke's path has this many points for each width of the brush.
 const POINTS: f64 = 2.0;
@@ -329,7 +329,7 @@ fn stroke(
 }
 
 /// Poses along an arc from top to bottom. The broad side of the brush lies across the motion.
-/// Pressure falls towards both ends. This takes a brush width.
+/// Pressure rises over the first brush width and falls over the last.
 fn samples(
     style: &Style,
     [x, y]: [f64; 2],

@@ -22,10 +22,10 @@ const DARKS: usize = 2;
 const DARK: f64 = 45.0;
 /// Least share of a pigment in a mixture. Strong pigments tint at far less than a fiftieth.
 const LEAST_SHARE: f64 = 0.002;
-/// A mixture keeps the hue up to this CIELAB hue difference. We chose it by eye.
+/// Greatest CIELAB hue difference at which a mixture still has the hue. We chose it by eye.
 const HUE_TOLERANCE: f64 = 3.0;
-/// A mixture keeps the hue from this chroma on, relative to an even shade or tint. We chose it by
-/// eye.
+/// Least chroma at which a mixture still has the hue, relative to an even shade or tint. We chose
+/// it by eye.
 const LEAST_CHROMA: f64 = 0.35;
 /// A mixture may deviate from the L* that it should have by this.
 const LIGHTNESS_TOLERANCE: f64 = 0.5;
@@ -242,8 +242,8 @@ fn shaded(base: Lab, lightness: f64) -> Lab {
     Lab { lightness, a: share * base.a, b: share * base.b }
 }
 
-/// Mixture of a hue in one lightness, with its own colour. This is the nearest mixture in the
-/// chroma of a shade or tint. Where paints do not reach this chroma, it is lower.
+/// The mixture of a hue with this L*, and the colour that it has. We search for the chroma of an
+/// even shade or tint. If paints do not reach it, we lower it.
 fn mixture_at(
     search: &RecipeSearch<'_>,
     base: Lab,
@@ -289,7 +289,7 @@ fn farthest(search: &RecipeSearch<'_>, base: Lab, end: f64) -> Result<f64, Tones
     Ok(kept)
 }
 
-/// Hue difference between a mixture and the hue, which we take in the mixture's chroma.
+/// Hue difference between a mixture and the hue, as if the hue had the mixture's chroma.
 fn hue_difference(found: Lab, base: Lab) -> f64 {
     2.0 * found.to_lch().chroma * (turn(found, base).to_radians() / 2.0).sin()
 }

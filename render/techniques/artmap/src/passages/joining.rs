@@ -155,14 +155,14 @@ fn united(regions: &Regions, scribbles: &[Vec<u32>]) -> (Regions, Vec<usize>) {
     (Regions::numbered(Field::from_values(width, height, labels), regions.count), under)
 }
 
-/// We take the direction from this share of the strongest gradients.
+/// We take the direction from the pixels with the strongest gradients, which are this share of all.
 const STRONGEST: f64 = 0.2;
 
-/// From this depth on, the neighbouring region does not affect gradients.
+/// At this distance from the border, in pixels, the neighbouring region does not affect gradients.
 const INSIDE: u32 = 4;
 
-/// This difference of the mean intensity and its deviation (0..1) costs 1, and so does this one of
-/// the direction.
+/// A difference of this size in the mean intensity (0 to 1) adds 1 to the unlikeness. The next two
+/// are for the deviation of the intensity and for the direction.
 const MEAN_STEP: f64 = 0.08;
 const DEVIATION_STEP: f64 = 0.05;
 const ANGLE_STEP: f64 = 25.0 * PI / 180.0;
@@ -263,8 +263,9 @@ pub(super) fn traits_of(
         .collect()
 }
 
-/// Pixels with gradients that belong to the region. If the pixels deep inside are a quarter of it,
-/// we take these. If not, we take the ones that are not at its border, or else all.
+/// Pixels for the gradients of a region, far enough from its border that no neighbour affects them.
+/// If the pixels deep inside are at least a quarter of the region, we take these. If not, we take
+/// the ones that are not at its border, or else all.
 fn inner(pixels: &[u32], depth: &Field<u32>) -> Vec<u32> {
     let depths = [INSIDE, 2];
     let found = depths
@@ -280,7 +281,8 @@ fn inner(pixels: &[u32], depth: &Field<u32>) -> Vec<u32> {
     found.unwrap_or_else(|| pixels.to_vec())
 }
 
-/// The fifth of the pixels that has the largest gradients. Among equal ones the first count.
+/// The fifth of the pixels that has the largest gradients. Among pixels with equal gradients, the
+/// first count.
 fn strongest(pixels: &[u32], gradient: &Field<[f32; 2]>) -> Vec<u32> {
     let mut by_strength: Vec<(u32, u32)> = pixels
         .iter()
@@ -305,7 +307,7 @@ const LEAST_BORDER: f64 = 0.5;
 /// A gap has at most this share of the area of its passage.
 const MOST_AREA: f64 = 0.2;
 
-/// A gap may be this many times more unlike than a region that we join.
+/// How unlike its passage a gap may be, relative to the limit for regions that we join.
 const MORE_UNLIKE: f64 = 2.5;
 
 /// The passage of each region, after filling gaps. A gap is a region of small area that belongs to
@@ -351,8 +353,8 @@ fn sums(traits: &[RegionTraits], passages: &[Option<usize>]) -> Vec<RegionTraits
     whole
 }
 
-/// The passage that the region `label` touches and belongs to. If there are several, this is the
-/// one it is most like.
+/// The passage that the region `label` touches and may join. If there are several, this is the one
+/// that it is most like.
 fn around(
     label: usize,
     borders: &[(u32, u32)],

@@ -13,7 +13,7 @@ use super::settings::{OverSegmentation, PassageError, PassageSettings};
 /// methods suit pictures of 0.1 to 1 megapixel.
 const LONGEST_PX: usize = 1024;
 
-/// Divides a picture into small regions. You then join passages of these.
+/// Divides a picture into small regions. Passages are then joined from these regions.
 ///
 /// If a picture is longer than 1024 px, we divide it at a whole fraction of its size.
 ///

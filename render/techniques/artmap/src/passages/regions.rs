@@ -162,7 +162,8 @@ pub(super) fn joined<T>(
     relabelled(regions, &into, summaries)
 }
 
-/// Follows `into` to its end. It leads from each label to the smaller one that we joined it to.
+/// Replaces each label by the one that its region ended in. `into` leads from each label to the
+/// smaller one that we joined it to.
 fn relabelled<T>(
     regions: &Regions,
     into: &[u32],

@@ -77,8 +77,9 @@ impl PassageReport {
     }
 }
 
-/// Names and linear sRGB of the colours of marks, in their order, after the last the first again.
-/// They can be told apart with deficient colour vision (Okabe and Ito 2008).
+/// Names and linear sRGB of the colours in which we draw marks. After the last colour we begin
+/// again with the first. People with deficient colour vision can tell them apart (Okabe and Ito
+/// 2008).
 const COLORS: [(&str, [f32; 3]); 7] = [
     ("orange", [0.791, 0.347, 0.0]),
     ("sky blue", [0.093, 0.456, 0.814]),

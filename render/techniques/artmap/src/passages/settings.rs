@@ -1,4 +1,4 @@
-//! The picture from which samples are taken, the settings of that, and its faults.
+//! The picture from which samples are taken, the settings for this, and the errors.
 
 use documents::hint::Explain;
 use documents::name_list;
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::marks::MarksError;
 use crate::sample::{PaintOfSamples, TexelPaint, WholePainting};
 
-/// Method that divides the picture into the small regions of which passages are joined.
+/// Method that divides the picture into small regions, from which passages are joined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum OverSegmentation {
@@ -38,7 +38,7 @@ pub struct PassageSettings {
     pub over: OverSegmentation,
     /// Number of colour classes of JSEG, 10 to 20.
     pub color_classes: usize,
-    /// How unlike regions may be that are still joined, 0 to 10, 1 is usual.
+    /// Greatest unlikeness of regions that are joined, 0 to 10. 1 is usual.
     pub reach: f64,
     /// Direction in which samples are resized.
     pub density: Density,

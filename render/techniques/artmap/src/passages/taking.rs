@@ -23,7 +23,7 @@ const MOST_SCALE: f64 = 8.0;
 /// light. You also get a report of each.
 ///
 /// We measure direction and distance of strokes in the lightness and, if the picture has a true
-/// relief, in the height of the paint. The clearer of both counts.
+/// relief, in the height of the paint. We use the clearer of the two.
 ///
 /// The spacing is the median of the samples' spacings. If their number is even, this is the
 /// smaller one in the middle. With [`Density::Width`], `mm_per_texel` is the geometric mean of

@@ -1,6 +1,6 @@
-//! Turns passages into upright samples. This has the direction of a passage's strokes, an estimate
-//! of their distance by autocorrelation, and the frame which says what place of the picture each
-//! texel shows. All channels are resampled at once.
+//! Turns passages into upright samples. This file finds the direction of a passage's strokes,
+//! estimates their distance by autocorrelation, and computes the frame, which gives the place in
+//! the picture that each texel shows. All channels are resampled at once.
 
 use graphics::blurred;
 use graphics::field::Field;
@@ -287,8 +287,8 @@ fn across(intensity: &Field<f32>, mask: &Field<bool>, along: [f64; 2]) -> Vec<f6
     (0..=largest).into_par_iter().map(|lag| correlation(&detail, lag)).collect()
 }
 
-/// Detail of the intensity and 1 in the passage, zeros elsewhere: the difference of a narrow and a
-/// wide mean, and both stay within the passage.
+/// Detail of the intensity, with 1 as the second number. Both are 0 outside the passage. Detail is
+/// a narrow mean less a wide mean, and both means take only pixels of the passage.
 fn detail(upright: &Field<Option<f32>>) -> Field<[f32; 2]> {
     let width = upright.width();
     let height = upright.height();

@@ -211,7 +211,7 @@ fn sample(header: &SampleHeader, part: &PartPlanes, pigments: Option<&[PigmentCh
     }
 }
 
-/// Decodes samples from `bytes`, the content of `file`. We use the name in errors only.
+/// Decodes samples from `bytes`, the content of `file`. Only errors use this name.
 ///
 /// # Errors
 /// [`TexelFileError`] if the content is not OpenEXR, holds no samples, is of a newer version,

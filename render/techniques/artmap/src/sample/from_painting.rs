@@ -176,7 +176,7 @@ pub(crate) fn level_colors(document: &Document, light: &Light) -> Picture {
     Field::from_values(shown.width(), shown.height(), colors.collect())
 }
 
-/// Paint of all layers in mm. `place` names the slot of each pigment.
+/// Paint of all layers in mm. `place` gives the slot of each pigment.
 pub(crate) fn summed_paint(
     document: &Document,
     place: impl Fn(PigmentId) -> Option<usize>,
@@ -325,7 +325,8 @@ mod tests {
         }
     }
 
-    /// The painting with layers of further pigments, each of a quantum or more.
+    /// The painting with one more dry layer for each of `amounts` (quanta), each layer of another
+    /// pigment.
     fn crowded(amounts: &[u32]) -> Document {
         let mut document = painting();
         for (index, &amount) in amounts.iter().enumerate() {

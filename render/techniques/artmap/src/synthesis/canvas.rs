@@ -1,4 +1,4 @@
-//! A map while it is synthesised. It holds for every texel the texel of the sample that this
+//! A map while it is synthesised. For every texel it holds the place in the sample that the texel
 //! shows.
 //!
 //! We join overlapping patches along the cheapest cut, which dynamic programming finds (Efros and
@@ -266,7 +266,7 @@ pub(crate) struct Usage {
     counts: Field<u32>,
     block: usize,
     patch: usize,
-    /// A block gives this many patches if all are used alike.
+    /// Number of patches that each block of the sample would give if all blocks were used equally.
     fair: f32,
     uniformity: f32,
 }

@@ -44,7 +44,7 @@ pub(crate) struct Descriptors {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Link {
     pub(crate) place: [u16; 2],
-    /// Mean squared difference of the features of both patches, which have deviation 1.
+    /// Mean squared difference of the features of both patches. Features have deviation 1.
     pub(crate) distance: f32,
 }
 
@@ -295,7 +295,7 @@ fn check_settings(settings: &SynthesisSettings) -> Result<(), SynthesisError> {
     check("uniformity", f64::from(settings.uniformity), 0.0, 16.0)
 }
 
-/// The spacing of all samples. They may differ a little.
+/// The common spacing of all samples. Spacings may differ a little.
 fn common_spacing(samples: &[Sample], size: usize) -> Result<f64, SynthesisError> {
     let first = samples.first().ok_or(SynthesisError::NoSample)?;
     let most = size as f64 / LEAST_STROKES;

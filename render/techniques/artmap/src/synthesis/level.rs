@@ -284,12 +284,13 @@ pub enum Features {
 pub struct SynthesisSettings {
     /// Width and height of the maps in texels, [`SynthesisSettings::SIZES`].
     pub size: usize,
-    /// Name of the sample that gets the first map, which the others follow, without it the sample
+    /// Name of the sample with the first map, which the other maps follow. `None` takes the sample
     /// with the strongest contrast of lightness.
     pub first: Option<String>,
     /// Properties by which patches are compared.
     pub features: Features,
-    /// Number of links of a patch to each other sample, 1..=512.
+    /// Number of similar patches in each other sample that we try for a patch of the first map,
+    /// 1..=512.
     pub links: usize,
     /// Weight of the likeness of linked patches relative to the likeness of overlaps, 0..=16:
     /// higher keeps maps closer to the first one, lower makes better seams.

@@ -26,8 +26,8 @@ pub use level::{Features, SynthesisError, SynthesisSettings};
 pub struct KeyMaps {
     /// Index of the sample that got the first map.
     pub first: usize,
-    /// For every map, in the order of the samples: each texel has the column and row of the texel
-    /// in the sample that this shows.
+    /// For every map, in the order of the samples: column and row of the texel in the sample that
+    /// each texel of the map shows.
     pub sources: Vec<Field<[u16; 2]>>,
     /// Width and height of a patch at the finest level, in texels.
     pub patch: usize,
@@ -37,8 +37,8 @@ pub struct KeyMaps {
 
 /// Synthesises a map of each sample (Yan and others 2008, section 4.3).
 ///
-/// We make the first map freely. For the others we take, patch by patch, what in their own sample
-/// is most like the first map there and agrees with their patches already laid. If a sample has
+/// Nothing guides the first map. For each patch of the other maps, we take the place in their own
+/// sample that is most like the first map there and fits the patches already laid. If a sample has
 /// its strokes at the places of the first one, it shows the same places. You get the same maps for
 /// the same input with any number of threads.
 ///

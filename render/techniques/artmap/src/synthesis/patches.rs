@@ -21,8 +21,8 @@ pub(crate) struct LevelMap {
     pub(crate) places: Vec<[u16; 2]>,
 }
 
-/// Finds the place for a patch so that it shows, `into` texels into it, what the coarser level
-/// shows at a texel of the map.
+/// Place of a patch in the sample, from the coarser level. The patch then shows, at the texel
+/// `into`, the same part of the sample that the coarser level shows at `texel` of the map.
 pub(crate) fn from_coarser(
     coarser: &LevelMap,
     texel: (usize, usize),
@@ -189,7 +189,7 @@ impl Following {
     /// Synthesises level `number` (1 is the coarsest) of a map from the same level of the first
     /// map and its own coarser level, if there is one.
     ///
-    /// Equation 6 weighs pixel values as it is printed. Here the weights belong to the costs.
+    /// Equation 6 as printed multiplies pixel values by the weights. We multiply the costs by them.
     pub(crate) fn level(
         &self,
         number: usize,

@@ -254,11 +254,11 @@ pub(crate) fn paint_of(
     }
 }
 
-/// Returns the description if it equals `back`, which you read from its text. For example, JSON
-/// has no notation for NaN and infinity, and libraries are written in six digits.
+/// Returns the description if it equals `back`, which was read from its text. They can differ: for
+/// example, JSON has no notation for NaN and infinity, and libraries are written in six digits.
 ///
 /// # Errors
-/// [`TexelFileError::Unwritable`] if it does not come back, with the reason.
+/// [`TexelFileError::Unwritable`] if they differ, with the reason.
 pub(crate) fn proven<T: PartialEq>(
     kind: &TexelFileKind,
     description: T,

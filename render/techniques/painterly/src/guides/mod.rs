@@ -179,7 +179,7 @@ pub enum GuideFault {
         /// Number of points.
         found: usize,
     },
-    /// A number is infinite or none.
+    /// A number is infinite or NaN.
     #[error("point {point}: `{value}` is not a place in a picture")]
     NotFinite {
         /// Number of the point.
@@ -265,7 +265,8 @@ struct FileOfGuides {
     guide: Vec<EntryOfGuide>,
 }
 
-/// A list of exactly `N` numbers. We need this because serde takes an array of more for one of `N`.
+/// A list of exactly `N` numbers. If a file has more than `N`, serde would accept them as an array
+/// of `N`. This type refuses them.
 #[derive(Deserialize)]
 #[serde(try_from = "Vec<T>")]
 struct Exactly<T, const N: usize>([T; N]);
@@ -314,7 +315,7 @@ impl Guides {
         Self::from_toml(&path.display().to_string(), &read_text(path)?)
     }
 
-    /// Parses the text of a file of guides. Errors call the file `file`.
+    /// Parses the text of a file of guides. `file` is the name of the file in errors.
     ///
     /// # Errors
     /// [`GuidesError`] with line, guide and point.

@@ -95,14 +95,16 @@ fn the_published_way_blurs_strokes() {
 /// Width and height of the pictures of a turning model.
 pub(super) const TURNED: (usize, usize) = (320, 240);
 
-/// Root mean square change of lightness at the same point of the model over `degrees` of a turn,
-/// relative to the same picture standing still, mean of `steps` turns.
+/// Root mean square change of lightness at the same point of the model over a turn of `degrees`. It
+/// is relative to the change if the picture stood still while the model turns. Mean of `steps`
+/// turns.
 fn popping(mesh: &Mesh, settings: &Settings, degrees: f32, steps: usize) -> f64 {
     let mut painter = Painter::of_model(mesh, &map(3), settings).unwrap();
     popping_of(mesh, degrees, steps, |camera, _| painter.paint(camera, TURNED, 0.0).unwrap().color)
 }
 
-/// Popping of any pictures, which are asked for by camera and number in the turn.
+/// Popping, as `popping` measures it, of the pictures that `picture` returns for a camera and its
+/// number in the turn.
 pub(super) fn popping_of(
     mesh: &Mesh,
     degrees: f32,
@@ -187,7 +189,8 @@ fn a_picture_has_the_same_bits_on_any_number_of_threads_and_again() {
     assert!(covered > 161 * 119 / 5, "{covered}");
 }
 
-/// Splats with weight of a knot, by seed's order, from two cameras.
+/// The splats of a knot from two cameras. Each pair has the same splat from both. We leave out
+/// splats of hardly any weight.
 fn turns(settings: &Settings, degrees: f32) -> Vec<[StrokeSplat; 2]> {
     let mesh = Mesh::torus_knot(8000);
     let mut painter = Painter::of_model(&mesh, &map(2), settings).unwrap();

@@ -7,7 +7,7 @@ use graphics::mesh::Mesh;
 use super::super::settings::Settings;
 use super::{Region, RegionArea, Regions, RegionsError};
 
-/// Pixels along the longer side within which regions of a picture are told apart.
+/// We mark the regions of a picture in at most this many pixels along its longer side.
 const MOST_PX: f32 = 2048.0;
 
 /// How the strokes of a region are painted.
@@ -16,9 +16,9 @@ pub(crate) struct Style {
     /// Index of the map.
     pub(crate) map: usize,
     pub(crate) size: f32,
-    /// Lengths of the map by which strokes move in a loop.
+    /// Number of lengths of the map by which strokes move in a loop.
     pub(crate) periods: u32,
-    /// How much lighter and darker strokes become by turns.
+    /// How much lighter and darker strokes become in turn.
     pub(crate) twinkle: f32,
     /// Number of changes to lighter and darker in a loop.
     pub(crate) twinkles: u32,

@@ -25,7 +25,8 @@ pub struct Regions {
     /// Width and height in px of the picture that polygons and centres refer to, `None` for the
     /// subject's own size.
     pub size_px: Option<[u32; 2]>,
-    /// Colours of labels, of any size: it is stretched over the subject.
+    /// Picture of labels, where each colour means a region. It has any size and is stretched over
+    /// the subject.
     pub labels: Option<Field<[u8; 3]>>,
 }
 
@@ -34,7 +35,7 @@ pub struct Regions {
 pub struct Region {
     /// Name for messages.
     pub name: String,
-    /// Its place.
+    /// The part of the subject that it covers.
     pub area: RegionArea,
     /// Name of the map of its brushwork.
     pub map: Option<String>,
@@ -44,9 +45,9 @@ pub struct Region {
     pub around: Option<[f32; 2]>,
     /// Size of strokes relative to the settings, 0.1..=10.
     pub size: f32,
-    /// Lengths of the map by which strokes move in a loop, 0..=16.
+    /// Number of lengths of the map by which strokes move in a loop, 0..=16.
     pub flow: Option<u32>,
-    /// How much lighter and darker strokes become by turns, by the range of tones, 0..=1.
+    /// How much lighter and darker strokes become in turn, as a share of the range of tones, 0..=1.
     pub twinkle: Option<f32>,
     /// Duration of one change to lighter and darker in seconds, 0.1..=3600.
     pub twinkle_seconds: Option<f32>,
@@ -176,7 +177,8 @@ impl Regions {
         own.checked()
     }
 
-    /// Parses the text of a file of regions without labels. Errors call the file `name`.
+    /// Parses the text of a file of regions without labels. `name` is the name of the file in
+    /// errors.
     ///
     /// # Errors
     /// [`RegionsError`] with line or region, and key.
@@ -184,7 +186,8 @@ impl Regions {
         parsed(name, text)?.0.checked()
     }
 
-    /// Checks that every number is within its range, and labels are there where they are named.
+    /// Checks names, numbers and polygons, and that the picture of labels has every colour that a
+    /// region names.
     ///
     /// # Errors
     /// [`RegionsError::Region`].

@@ -164,7 +164,7 @@ pub enum MarkFault {
     /// The name is empty.
     #[error("a sample needs a name")]
     NoName,
-    /// Two samples have one name.
+    /// Two samples have the same name.
     #[error("another sample has this name")]
     RepeatedName,
     /// The sample has no area, or more than one.
@@ -176,16 +176,16 @@ pub enum MarkFault {
     /// A line has no points.
     #[error("a line needs at least one point")]
     NoPoints,
-    /// A number is infinite or none.
+    /// A number is infinite or NaN.
     #[error("`{value}` is not a place in a picture")]
     NotFinite {
         /// The number.
         value: f64,
     },
-    /// A rectangle has no pixels or broken ones.
+    /// A rectangle has no pixels, or its numbers are not whole.
     #[error("[x, y, width, height] are whole numbers of pixels, width and height at least 1")]
     Rectangle,
-    /// Both points of the spacing are one.
+    /// Both points of the spacing are the same.
     #[error("both points are at the same place")]
     NoDistance,
     /// A place lies outside of the picture.
