@@ -1,5 +1,5 @@
-//! Frames of a still life of 60,000 triangles at 750 x 570 pixels. We measure what is seen, light
-//! and hatching, and the picture.
+//! Benchmarks of drawing a still life of 60,000 triangles at 750 x 570 pixels: visibility, shading
+//! with and without hatching, composing the picture, and whole frames.
 
 #![expect(clippy::unwrap_used, reason = "a bench may panic")]
 
@@ -101,7 +101,8 @@ fn revealed(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| scene.reveal(&visible, &shaded));
 }
 
-/// Goes from the model to the picture in the processor's memory, without counting.
+/// All steps from the model to the picture, which is then in the processor's memory. We do not
+/// count volumes here, but use prepared counts.
 #[divan::bench(args = [BackendChoice::Cpu, BackendChoice::Gpu])]
 fn frame(bencher: Bencher<'_, '_>, choice: BackendChoice) {
     let Ok(compute) = Compute::choose(choice) else { return };

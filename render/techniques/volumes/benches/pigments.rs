@@ -1,5 +1,5 @@
-//! Benchmarks of volumes as films of pigments: the parts of a frame of a still life with 64 volumes
-//! of a grid, of detail 2.
+//! Benchmarks of volumes as films of pigments: the steps of one frame of a still life. The grid has
+//! 64 volumes with level of detail 2.
 
 #![expect(clippy::unwrap_used, reason = "a bench may panic")]
 

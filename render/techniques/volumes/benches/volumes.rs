@@ -74,7 +74,7 @@ fn free(bencher: Bencher, crowd: Crowd) {
     crowd.run(bencher, &Surroundings::new(1.0, 1));
 }
 
-/// The same with the pull to a surface.
+/// All forces of [`free`], and the pull to a surface.
 #[divan::bench(args = CROWDS)]
 fn on_a_surface(bencher: Bencher, crowd: Crowd) {
     let surface = SurfaceLattice::of(&crowd.floor(), 1.0).unwrap();

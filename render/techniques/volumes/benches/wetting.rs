@@ -46,7 +46,8 @@ fn level(side: f32) -> Mesh {
     }
 }
 
-/// A level square of 400 x 400 wet cells, all of which give and take.
+/// A level square of 400 x 400 wet cells. Each holds more than its capacity, so that paint spills
+/// between neighbours.
 fn wet(pigments: usize) -> (Grid, Spilling, Vec<Cell>) {
     let grid = Grid::of(&level(400.0), 1.0, SAMPLES_PER_CELL, 1).unwrap();
     let spilling = Spilling::new(&grid.cells, 1.0, 0.04, 0.0).unwrap();

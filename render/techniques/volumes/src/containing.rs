@@ -94,8 +94,8 @@ impl Inside {
         self.most
     }
 
-    /// The face through which `ray` leaves. Also returns the products of the normal of its plane
-    /// with `ray` and with a point of the plane. The ray crosses the plane at their ratio.
+    /// The face through which `ray` leaves. Also returns the dot products of the normal of its
+    /// plane with `ray` and with a point of the plane. The ray crosses the plane at their ratio.
     fn leaving(&self, ray: DVec3) -> (u32, f64, f64) {
         let face = self.face_along(ray);
         let [a, b, c] = self.corners(face);
@@ -131,11 +131,12 @@ impl Inside {
 #[derive(Debug)]
 struct Routes {
     faces: &'static [[u32; 3]],
-    /// The faces across three edges: from the first corner to the second, on to the third, and
-    /// back.
+    /// For each face, the neighbours across its three edges. Edge 0 joins the first and second
+    /// corner, edge 1 the second and third, edge 2 the third and first.
     across: Vec<[u32; 3]>,
     side: usize,
-    /// The face in the middle of each square of this cube.
+    /// We divide each side of a cube around the centre into `side` x `side` squares. This holds,
+    /// for each square, the face through which the ray through its middle leaves.
     starts: Vec<u32>,
 }
 
@@ -187,7 +188,7 @@ fn across(faces: &[[u32; 3]]) -> Vec<[u32; 3]> {
     beyond.collect()
 }
 
-/// The square of a cube around the centre through which a ray goes.
+/// Index of the square ([`Routes::starts`]) through which a ray goes.
 fn cell_of(ray: DVec3, side: usize) -> usize {
     let size = ray.abs();
     let axis = if size.x >= size.y && size.x >= size.z {

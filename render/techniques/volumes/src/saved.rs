@@ -63,7 +63,7 @@ pub enum SavedError {
         /// Version that is read.
         read: u32,
     },
-    /// The state belongs to another scene, to other settings, or to another wish.
+    /// The state belongs to another scene or to other settings, or was saved with another `wish`.
     #[error("saved for another scene, or with other settings")]
     Other,
     /// The file was cut short or changed.

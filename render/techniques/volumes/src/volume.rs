@@ -47,8 +47,7 @@ pub struct Volume {
     pub paint: Cell,
     /// Its particles.
     pub particles: Particles,
-    /// Number of the forces under which it came to rest, 0 if it moves. Other forces have another
-    /// number.
+    /// Fingerprint of the forces under which it came to rest, 0 if it moves.
     pub(crate) rests_under: u64,
 }
 

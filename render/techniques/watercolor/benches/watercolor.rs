@@ -1,7 +1,7 @@
 //! Benchmarks of watercolour at 750 x 570 pixels: abstraction of pictures (mean shift, then
-//! morphological smoothing), visibility and toon shading of meshes, coherent noise for a frame of
-//! 60,000 triangles from a visible surface to both noises, effects, and whole pictures of a mesh,
-//! each from another direction.
+//! morphological smoothing), visibility and toon shading of meshes, both coherent noises (flow and
+//! dispersion) for a frame of 60,000 triangles, effects, and whole pictures of a mesh, each from
+//! another direction.
 
 #![expect(clippy::unwrap_used, reason = "a bench may panic")]
 
@@ -368,7 +368,7 @@ fn picture(width: usize, height: usize) -> Field<[f32; 4]> {
     picture
 }
 
-/// 1 megapixel, with radii of 10 px and 8 in CIELUV.
+/// Segments 1 megapixel by mean shift, with radii of 10 px and of 8 in CIELUV.
 #[divan::bench(sample_count = 5)]
 fn mean_shift(bencher: Bencher<'_, '_>) {
     let picture = picture(1000, 1000);
@@ -382,13 +382,13 @@ fn smooth(bencher: Bencher<'_, '_>, picture: Field<[f32; 4]>, radius_px: u32) {
     bencher.bench_local(|| opening_then_closing(&mut compute, &image, radius_px).unwrap());
 }
 
-/// 1 megapixel opened and closed, by radius.
+/// Opens and closes a picture of 1 megapixel with several radii.
 #[divan::bench(args = [3, 7, 20, 60], sample_count = 20)]
 fn smoothing(bencher: Bencher<'_, '_>, radius_px: u32) {
     smooth(bencher, picture(1000, 1000), radius_px);
 }
 
-/// 750 x 570 opened and closed, by radius.
+/// Opens and closes a picture of 750 x 570 pixels with several radii.
 #[divan::bench(args = [3, 5], sample_count = 20)]
 fn smoothing_750(bencher: Bencher<'_, '_>, radius_px: u32) {
     smooth(bencher, picture(750, 570), radius_px);

@@ -214,7 +214,7 @@ impl Glazes {
     }
 
     /// Height in mm of each slot in the glaze for an encoded sRGB colour. Colours are relative to
-    /// the paper, e.g. white is next to no paint.
+    /// the paper, e.g. white needs almost no paint.
     #[must_use]
     pub fn heights_mm(&self, color: [f32; 4]) -> [f32; SLOTS] {
         self.separation.heights_mm(target_color(color, self.white, self.black))

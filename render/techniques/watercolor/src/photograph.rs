@@ -114,7 +114,7 @@ impl Margin {
     }
 }
 
-/// The picture `flat` in `width` x `height` pixels, as many as it has or more.
+/// The picture `flat`, enlarged to `width` x `height` pixels. These are at least as many as it has.
 pub(crate) fn enlarged(flat: &Field<[f32; 4]>, width: usize, height: usize) -> Field<[f32; 4]> {
     if (flat.width(), flat.height()) == (width, height) {
         return flat.clone();
@@ -135,7 +135,8 @@ struct Enlarged<'a> {
 }
 
 impl<'a> Enlarged<'a> {
-    /// The picture `flat` on a grid of `width` x `height` pixels, as many as it has or more.
+    /// The picture `flat` on a grid of `width` x `height` pixels. These are at least as many as it
+    /// has.
     fn new(flat: &'a Field<[f32; 4]>, width: usize, height: usize) -> Self {
         let step = [
             flat.width() as f32 / width.max(1) as f32,
@@ -179,7 +180,8 @@ impl<'a> Enlarged<'a> {
         mixed(first.0, second.0, share)
     }
 
-    /// A smooth picture of the size of the flat one at a pixel, interpolated linearly.
+    /// Value of a smooth picture at a pixel of the enlarged grid, interpolated linearly. The
+    /// picture has the size of the flat one.
     fn smooth<const N: usize>(&self, picture: &Field<[f32; N]>, x: usize, y: usize) -> [f32; N] {
         let (left, right, a) = linear_taps(x, self.step[0], picture.width());
         let (above, below, b) = linear_taps(y, self.step[1], picture.height());
@@ -201,14 +203,16 @@ impl<'a> Enlarged<'a> {
     }
 }
 
-/// The two cells of a line of `size` cells around a pixel of `step` cells, and the share of the second.
+/// The two cells around the middle of pixel `at` on a line of `size` cells, and the share of the
+/// second. A pixel is `step` cells wide.
 fn linear_taps(at: usize, step: f32, size: usize) -> (usize, usize, f32) {
     let at = ((at as f32 + 0.5) * step - 0.5).clamp(0.0, (size - 1) as f32);
     let low = at as usize;
     (low, (low + 1).min(size - 1), at - low as f32)
 }
 
-/// The four cells of a line of `size` cells around a pixel of `step` cells, with their weights.
+/// The four cells around the middle of pixel `at` on a line of `size` cells, with their weights. A
+/// pixel is `step` cells wide.
 fn cubic_taps(at: usize, step: f32, size: usize) -> ([usize; 4], [f32; 4]) {
     let place = (at as f32 + 0.5) * step - 0.5;
     let low = place.floor();
@@ -223,17 +227,19 @@ fn b_spline(t: f32) -> [f32; 4] {
     [u * u * u, second, third, t * t * t].map(|weight| weight / 6.0)
 }
 
-/// Standard deviation of the blur before outlines of the photograph are looked for, as a share
-/// of [`WetSettings::tone_px`].
+/// Standard deviation of the blur of the photograph before we look for outlines, as a share of
+/// [`WetSettings::tone_px`].
 const OUTLINE_BLUR: f32 = 0.08;
 
 /// Contrast below which the photograph counts as smooth: noise of a sensor.
 const SMOOTH: f32 = 0.015;
 
-/// Contrasts at which an outline begins to stay, and stays wholly, where steps run together.
+/// Where steps of a gradient run together, an outline begins to stay at the first contrast and
+/// stays wholly from the second on.
 const STAYS: [f32; 2] = [0.04, 0.12];
 
-/// Contrasts at which an outline begins to stay, and stays wholly, where the paper is wet.
+/// Where the paper is wet, an outline begins to stay at the first contrast and stays wholly from
+/// the second on.
 const STAYS_WET: [f32; 2] = [0.3, 0.6];
 
 /// Colours that run into each other, and where they do.
@@ -241,7 +247,7 @@ const STAYS_WET: [f32; 2] = [0.3, 0.6];
 struct Running {
     /// Encoded sRGB and coverage of the colours that ran.
     color: Field<[f32; 4]>,
-    /// Share of them in the picture, 0 to 1.
+    /// Share of these colours in each pixel of the picture, 0 to 1.
     share: Field<[f32; 1]>,
 }
 
@@ -297,10 +303,11 @@ fn contrast(original: &Field<[f32; 4]>, length: f32) -> Field<[f32; 1]> {
     Field::from_values(edges.width(), edges.height(), values)
 }
 
-/// The contrast of the nearest outlines. It falls with the distance. An outline of a blur of `own`
-/// px keeps about its contrast in its middle.
-fn spread(contrast: &Field<[f32; 1]>, sigma: f32, own: f32) -> Field<[f32; 1]> {
-    let gain = 2.5 * sigma / own.max(0.6);
+/// The contrast of the nearest outlines. It falls with the distance. `blur_px` is the standard
+/// deviation of the blur that `contrast` already has. With it, the middle of an outline keeps about
+/// its contrast.
+fn spread(contrast: &Field<[f32; 1]>, sigma: f32, blur_px: f32) -> Field<[f32; 1]> {
+    let gain = 2.5 * sigma / blur_px.max(0.6);
     mapped(&blurred(contrast, f64::from(sigma)), |[near]| [gain * near])
 }
 
@@ -359,7 +366,7 @@ fn displaced(color: &Field<[f32; 4]>, settings: &WetSettings) -> Field<[f32; 4]>
     moved
 }
 
-/// The place on a line of `size` places that lies nearest to `by` beyond `from`.
+/// The index nearest to `from + by` on a line of `size` places.
 fn moved_by(from: usize, by: f32, size: usize) -> usize {
     (from as f32 + by).round().clamp(0.0, (size - 1) as f32) as usize
 }

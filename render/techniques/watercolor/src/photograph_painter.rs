@@ -229,8 +229,8 @@ impl Default for RegionSettings {
 }
 
 impl From<&AbstractionSettings> for RegionSettings {
-    /// Rounds lengths to pixels and clamps them to values that segmentation and smoothing take. You
-    /// pass the `settings` for the size of the picture.
+    /// Rounds lengths to pixels and clamps them to values that segmentation and smoothing take.
+    /// First scale the `settings` to the size of the picture, with [`Settings::for_size`].
     fn from(settings: &AbstractionSettings) -> Self {
         let AbstractionSettings { spatial_px, range_luv, tone_luv, least_region_px, brush_px } =
             *settings;

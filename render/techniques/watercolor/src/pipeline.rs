@@ -194,10 +194,10 @@ pub(super) fn paint_layer(
     Ok(color)
 }
 
-/// Standard deviations of the blur of outlines in the distance that the dry brush keeps.
+/// The dry brush keeps this many standard deviations of the blur of outlines away from them.
 const OUTLINE_SIGMAS: f32 = 2.0;
 
-/// Contrast of an outline, seen at its blurred middle, at which the brush is fully wet.
+/// Contrast of an outline at which the brush is fully wet in the middle of the blurred outline.
 const OUTLINE_CONTRAST: f32 = 0.02;
 
 fn report(

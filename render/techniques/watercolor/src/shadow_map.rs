@@ -156,7 +156,8 @@ impl ShadowView {
     }
 }
 
-/// Share of a row or column of pixels in a square from inside of the first to inside of the last.
+/// Share of row or column `at` that lies in a square. The square begins at the share `part` of the
+/// row or column `first` and ends at the share `part` of `last`.
 fn border_share(at: usize, [first, last]: [usize; 2], part: f32) -> f32 {
     match at {
         at if at == first => 1.0 - part,

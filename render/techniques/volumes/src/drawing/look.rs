@@ -90,7 +90,7 @@ pub enum DrawingError {
     /// The graphics device failed.
     #[error(transparent)]
     Device(#[from] DeviceError),
-    /// A setting is out of its range, or no number.
+    /// A setting is out of its range or NaN.
     #[error("{name} is {least} to {most}, found `{found}`")]
     #[hint("give a number from {least} to {most}")]
     Setting {

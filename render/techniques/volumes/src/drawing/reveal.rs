@@ -107,13 +107,13 @@ fn reveal_on_cpu(
     picture
 }
 
-/// This is exact at tints of 0 and 1.
+/// Mixes `tint` parts of `inside` over `under`. This is exact at tints of 0 and 1.
 #[inline(always)]
 fn mixed(under: [f32; 3], inside: [f32; 3], tint: f32) -> [f32; 3] {
     std::array::from_fn(|i| under[i] * (1.0 - tint) + inside[i] * tint)
 }
 
-/// This is exact for a stain of 1.
+/// Multiplies a colour by a stain. This is exact for a stain of 1.
 #[inline(always)]
 fn stained(under: [f32; 3], stain: [f32; 3]) -> [f32; 3] {
     std::array::from_fn(|i| under[i] * stain[i])
@@ -256,8 +256,8 @@ pub enum Inside {
 /// A region of a picture.
 #[derive(Debug, Clone)]
 pub struct Region {
-    /// Volumes and shells that hold what each sample shows. There are as many samples as pixels in
-    /// the shaded picture.
+    /// Number of volumes and shells that hold the surface point of each sample. There are as many
+    /// samples as pixels in the shaded picture.
     pub counts: Image<i32>,
     /// Share of the colour inside, by count.
     pub table: TintTable,
@@ -276,7 +276,7 @@ impl Region {
 /// Checks the number of regions and their colours.
 ///
 /// # Errors
-/// [`DrawingError::Regions`]; [`DrawingError::Setting`] for a colour out of 0..1 or no number.
+/// [`DrawingError::Regions`]; [`DrawingError::Setting`] for a colour that is out of 0..1 or NaN.
 pub fn checked_regions(regions: &[Region]) -> Result<(), DrawingError> {
     if regions.len() > MOST_REGIONS {
         return Err(DrawingError::Regions { most: MOST_REGIONS, found: regions.len() });

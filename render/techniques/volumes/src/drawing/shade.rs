@@ -191,8 +191,9 @@ impl<'a> Shader<'a> {
     }
 }
 
-/// Light by the grey of a colour that is not lit. We make it lighter between black and white,
-/// because the colour that you see between the strokes is dark itself.
+/// The light that selects the tone of hatching where surfaces are not lit, from the grey of their
+/// colour. It is lighter than this grey between black and white, because the colour that you see
+/// between the strokes is dark itself.
 #[inline(always)]
 pub(super) fn lifted(grey: f32) -> f32 {
     grey * (2.0 - grey)

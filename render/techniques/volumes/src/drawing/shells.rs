@@ -18,7 +18,7 @@ pub enum ShellError {
         /// Number of shells.
         found: usize,
     },
-    /// There is not one tint more than there are shells.
+    /// The number of tints is not the number of shells plus 1.
     #[error(
         "{} {} tints, from outside to the core; found `{tints}`",
         counted_as(*shells, "shell wants", "shells want"),
@@ -31,7 +31,7 @@ pub enum ShellError {
         /// Number of tints.
         tints: usize,
     },
-    /// A scale is outside of its range, or no number.
+    /// A scale is outside of its range or NaN.
     #[error("scale {index} of the shells is not above 0 and at most 1: `{found}`")]
     #[hint("give scales that fall from 1, such as 1, 0.93, 0.86, 0.79")]
     Scale {
@@ -49,7 +49,7 @@ pub enum ShellError {
         /// The scale that was given.
         found: f32,
     },
-    /// A tint is outside of its range, or no number.
+    /// A tint is outside of its range or NaN.
     #[error("tint {index} is not within 0 to 1: `{found}`")]
     Tint {
         /// Index of the tint, from 0.
@@ -66,7 +66,7 @@ pub enum ShellError {
         found: f32,
     },
     /// The tint outside of all volumes is not 0.
-    #[error("the first tint is that outside of all volumes, which is 0, found `{found}`")]
+    #[error("the first tint, outside of all volumes, is 0, found `{found}`")]
     Outside {
         /// The tint that was given.
         found: f32,
@@ -138,7 +138,8 @@ impl Shells {
     /// count of shells.
     ///
     /// # Errors
-    /// [`ShellError`] if the lists are not of such lengths or not in order.
+    /// [`ShellError`] if the lists have other lengths or are not in order, or a value is out of its
+    /// range.
     pub fn new(scales: Vec<f32>, tints: Vec<f32>) -> Result<Self, ShellError> {
         if !(1..=MOST_SHELLS).contains(&scales.len()) {
             return Err(ShellError::Count { found: scales.len() });

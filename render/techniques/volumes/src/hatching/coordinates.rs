@@ -23,20 +23,22 @@ const MOST_STRETCH: f32 = 4.0;
 /// This share of a model's area must have useful coordinates.
 const USEFUL_SHARE: f32 = 0.9;
 
-/// A place on the tile of strokes, and how much one plane counts there.
+/// A point of a surface, mapped to the tile of strokes by one plane or by the model's own
+/// coordinates. `weight` says how much this mapping counts, 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Patch {
     pub(crate) u: f32,
     pub(crate) v: f32,
-    /// Change of 2 u + v from pixel to pixel, at most. The strokes across lie along its contours.
-    /// This turns them by 63 degrees from those along, so that the tile still repeats.
+    /// Greatest change of 2 u + v from one pixel to the next. The strokes across follow lines on
+    /// which 2 u + v is constant. They cross the strokes along at 63 degrees, and the tile still
+    /// repeats.
     pub(crate) across_per_px: f32,
-    /// Change of v from pixel to pixel, at most.
+    /// Greatest change of v from one pixel to the next.
     pub(crate) v_per_px: f32,
     pub(crate) weight: f32,
 }
 
-/// Lays places of a model on the tile, as a camera sees them.
+/// Maps points of a model to the tile of strokes, for the view of a camera.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Placing {
     pub(crate) coordinates: Coordinates,
@@ -52,7 +54,7 @@ pub(crate) struct Placing {
 }
 
 impl Placing {
-    /// Lays places for a picture `height_px` pixels high.
+    /// The mapping for a picture that is `height_px` pixels high.
     pub(crate) fn new(
         look: &HatchingLook,
         (mesh_is_useful, bounds): (bool, [Vec3; 2]),
@@ -148,8 +150,8 @@ impl Sight {
         Self { ray, normal, cosine, pixel: pixel * distance }
     }
 
-    /// How much a value with this gradient changes from pixel to pixel, at most: along the
-    /// surface, across the ray.
+    /// Greatest change of a value with this gradient from one pixel to the next, on the surface
+    /// that the ray meets.
     #[inline(always)]
     fn per_px(&self, gradient: Vec3) -> f32 {
         let seen = gradient - self.normal * (gradient.dot(self.ray) / self.cosine);
@@ -174,8 +176,8 @@ fn own_patch(mesh: &PackedMesh, fragment: Fragment, sight: &Sight, crossed: bool
     }
 }
 
-/// Gradients in the plane of a triangle. You give the changes of the values along two of its
-/// edges. This is 0 on a triangle without area.
+/// Gradients in the plane of a triangle. You give the changes of two values along two of its edges.
+/// On a triangle without area the gradients are 0.
 #[inline(always)]
 fn gradients([to_b, to_c]: [Vec3; 2], changes: [[f32; 2]; 2]) -> [Vec3; 2] {
     let normal = to_b.cross(to_c);

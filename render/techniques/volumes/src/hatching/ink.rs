@@ -1,5 +1,5 @@
-//! The ink that hatching puts on a point, and hatching in the memory that draws it. `ink.wgsl` is
-//! the twin of this file in WGSL.
+//! The ink that hatching puts on a point of a surface. Also hatching in the memory of a
+//! [`Compute`]. `ink.wgsl` is the twin of this file in WGSL.
 
 use glam::Vec3;
 use graphics::compute::{Compute, Image};
@@ -15,13 +15,13 @@ use super::threshold::{SLICES, ThresholdTexture};
 /// tones.
 pub const DIRECTIONS_MEET: f32 = 0.4;
 
-/// We scale coordinates within these octaves of the density.
+/// Least and greatest octave of the density of strokes. Beyond them we do not scale the coordinates
+/// further.
 const OCTAVES: [i32; 2] = [-8, 14];
 
 const SECOND: f32 = std::f32::consts::SQRT_2;
 
-/// We take the strokes across from here in the texture, so that they differ from the strokes
-/// along.
+/// Offset in the texture of the strokes across, so that they differ from the strokes along.
 const ACROSS_FROM: f32 = 0.37;
 
 /// Tones of the strokes along and across. Together they leave the share `tone` of bare paper,
@@ -47,7 +47,7 @@ pub(crate) struct Inking<'a> {
 
 impl<'a> Inking<'a> {
     /// # Panics
-    /// If there are not the quads of all slices.
+    /// If `quads` does not hold all texels of all slices.
     pub(crate) fn new(quads: &'a [u32], softness: f32, width_px: f32) -> Self {
         assert_eq!(quads.len(), SLICES * SIDE * SIDE, "texels of a threshold texture");
         Self { quads, sharpness: 0.5 / softness, scale: Self::scale(width_px) }
@@ -115,7 +115,8 @@ impl<'a> Inking<'a> {
         (above + (below - above) * down) * (1.0 / 255.0)
     }
 
-    /// A texel takes ink while the tone falls past its threshold (Webb et al. 2002).
+    /// Ink of a texel, 0 to 1. It rises from 0 to 1 while the tone falls from just above the
+    /// threshold of the texel to just below it (Webb et al. 2002).
     #[inline(always)]
     fn inked(&self, threshold: f32, tone: f32) -> f32 {
         let at = ((tone - threshold) * self.sharpness + 0.5).clamp(0.0, 1.0);

@@ -1,5 +1,5 @@
-//! Pencil strokes on a tile that repeats. This knows what strokes cover of a tile, and chooses the
-//! one that fills the widest gap.
+//! Pencil strokes on a tile that repeats. Also records which texels of a tile strokes cover, and
+//! chooses the stroke that fills the widest gap.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -24,7 +24,7 @@ const BEYOND: f32 = 1.6;
 /// this.
 const REACH: f32 = 2.0;
 
-/// The hand wobbles at this many points along a stroke.
+/// Number of points along a stroke at which the wobble and the pressure of the hand are given.
 const KNOTS: usize = 6;
 
 /// Lengths of strokes, as shares of the tile's side.
@@ -145,10 +145,11 @@ fn interpolated(knots: &[f32; KNOTS], along: f32) -> f32 {
     knots[below] + (knots[below + 1] - knots[below]) * smooth
 }
 
-/// We look at the tile through this many windows. Their sides are powers of two.
+/// Number of sizes of the windows in which we count covered texels. Their sides are 1, 2, 4 .. 64
+/// texels.
 const WINDOWS: usize = 7;
 
-/// A texel of a stroke counts as covered up to this loss of tone.
+/// A stroke covers a texel if its tone there is less than this below the stroke's own tone.
 const COUNTS_TO: f32 = 0.4;
 
 /// We move a stroke by at most this many texels into the middle of its gap.
@@ -157,7 +158,7 @@ const NUDGE: i32 = 8;
 /// We want this many texels free to either side of a stroke.
 const FREE: i32 = 7;
 
-/// Share of a tile that is covered. You see it through windows of rising size.
+/// The texels of a tile that strokes cover, counted in windows of several sizes.
 #[derive(Debug)]
 pub(super) struct Coverage {
     size: f32,
@@ -198,7 +199,8 @@ impl Coverage {
         self.count as f32 / self.covered.len() as f32
     }
 
-    /// The first of the strokes with the least covered around it, and its index.
+    /// The stroke around which the least is covered, and its index. If there are several, this is
+    /// the first.
     pub(super) fn best(&self, strokes: impl Iterator<Item = Stroke>) -> Option<(usize, Stroke)> {
         let mut best = None;
         let mut least = f32::INFINITY;
@@ -211,7 +213,7 @@ impl Coverage {
         best
     }
 
-    /// Mean share that is covered around the middle of a stroke, over windows of all sizes.
+    /// Mean share that is covered around the middle line of a stroke, over windows of all sizes.
     fn around(&self, stroke: &Stroke) -> f32 {
         let mask = SIDE as i32 - 1;
         let mut sum = 0.0;

@@ -1,10 +1,10 @@
-//! A texture of thresholds. Every texel holds the lightest tone at which we ink it. This also
-//! draws the strokes for a tile at its whole size, and half-way to half of it.
+//! A texture of thresholds. Every texel holds the lightest tone at which we ink it. We also choose
+//! the strokes here, for a tile at its full size and at 2^(-1/2) of it.
 //!
-//! Over the octave from one size to half of it a tile has to become four copies of itself, so that
-//! you can magnify without end. Strokes keep their width on the screen. Each slides by less than
-//! its length to a similar stroke of the four copies. The other strokes of the copies are born in
-//! the gaps that open, one part of them half-way.
+//! You can magnify without end, because a tile at half its size is four copies of itself side by
+//! side. Strokes keep their width on the screen. On the way to half the size, each stroke slides by
+//! less than its length to a similar stroke of the four copies. The other strokes of the copies
+//! appear in the gaps that open, some of them at 2^(-1/2).
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -18,13 +18,13 @@ const GRAIN: f32 = 0.12;
 /// A valley of the paper takes little lead. It begins at this height of the grain, 0 to 1.
 const VALLEY: f32 = 0.6;
 
-/// A valley takes this much tone for each square of its depth.
+/// Tone that a valley takes from a texel, divided by the square of the depth of the valley.
 const DEPTH: f32 = 4.0;
 
 /// We count thresholds in this many parts of their range.
 const BINS: usize = 1024;
 
-/// We spread thresholds anew this many times, by the values between them.
+/// We even out the values that are interpolated between texels in this many rounds.
 const ROUNDS: usize = 3;
 
 /// Thresholds of pencil strokes along u on a tile that repeats, in [`SLICES`](super::SLICES)
@@ -173,23 +173,24 @@ pub(crate) fn sample_texture() -> &'static ThresholdTexture {
 /// Magnifications in an octave.
 pub const SLICES: usize = 2;
 
-/// Strokes cover this share of a tile in the end. What is left between them comes last.
+/// We draw strokes until they cover this share of a tile. The texels that are left take ink last.
 const COVERED: f32 = 0.95;
 
 /// We try this many strokes for each that we draw.
 const CANDIDATES: usize = 20;
 
-/// We choose among this many strokes that are not yet born, next by tone.
+/// We choose the next new stroke among at most this many of those that are left: the lightest that
+/// are not lighter than the share of bare paper.
 const NEXT: usize = 160;
 
-/// The tone of a stroke may differ by this much from the one that it becomes.
+/// A stroke slides only to a stroke with a tone that differs by at most this much.
 const LIKE: f32 = 0.08;
 
-/// We prefer to slide a stroke along by up to this length, in its widths, rather than across by
+/// We prefer to slide a stroke lengthwise by up to this many of its widths, rather than sideways by
 /// one width.
 const ALONG: f32 = 16.0;
 
-/// A stroke, which we draw below this tone.
+/// A stroke and the tone below which we draw it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Drawn {
     pub(super) stroke: Stroke,
@@ -223,8 +224,9 @@ fn first_slice(random: &mut ChaCha8Rng) -> Vec<Drawn> {
     drawn
 }
 
-/// The strokes of the first slice half-way to those they become. We fill the gaps between them
-/// with others of the four copies. All are in order of falling tone.
+/// The strokes of the first slice, half-way to the strokes of the copies to which they slide. We
+/// fill the gaps between them with other strokes of the four copies. All are in order of falling
+/// tone.
 fn second_slice(
     first: &[Drawn],
     four: &[Drawn],
@@ -280,8 +282,8 @@ fn four_copies(first: &[Drawn]) -> Vec<Drawn> {
         .collect()
 }
 
-/// For each stroke, the stroke of the copies that it becomes. This is the nearest of about its
-/// tone that no lighter one has taken.
+/// For each stroke, the index of the stroke of the copies to which it slides. This is the nearest
+/// with about the same tone that no lighter stroke has taken.
 fn like_strokes(first: &[Drawn], four: &[Drawn]) -> Vec<Option<usize>> {
     let mut taken = vec![false; four.len()];
     let across = WIDTH_TEXELS / SIDE as f32;

@@ -312,8 +312,8 @@ fn volumes_at_rest_sleep_until_something_changes() {
 
 const EXTREMES_STEP: f32 = 1.0 / 120.0;
 
-/// The least determinant over a face of a volume. It takes unit vectors to the places of its
-/// particles.
+/// The least determinant of a face of a volume: of the unit vectors from the centre to its three
+/// corners.
 fn least_cone(volume: &Volume) -> f64 {
     let [x, y, z] = &volume.particles.places;
     let units: Vec<DVec3> =
@@ -362,7 +362,8 @@ fn unit(random: &mut ChaCha8Rng) -> Vec3 {
     Vec3::from([(); 3].map(|()| 2.0 * random.random::<f32>() - 1.0)).normalize_or(Vec3::X)
 }
 
-/// A number from 0 to `most`. It is 0, or even in its logarithm over seven decades.
+/// A random number from 0 to `most`: 0 once in ten times, or else with an evenly distributed
+/// logarithm over seven decades.
 fn spread(random: &mut ChaCha8Rng, most: f32) -> f32 {
     if random.random::<f32>() < 0.1 {
         return 0.0;
@@ -370,8 +371,8 @@ fn spread(random: &mut ChaCha8Rng, most: f32) -> f32 {
     most * 10_f32.powf(-7.0 * random.random::<f32>())
 }
 
-/// Moves volumes of some details under random settings, times and pushes. All stay finite and near
-/// the centre, or we refuse the step as too stiff. Returns how many steps were refused.
+/// Moves volumes of these levels of detail under random settings, times and pushes. All stay finite
+/// and near the centre, or we refuse the step as too stiff. Returns how many steps were refused.
 fn survives(steps: usize, details: &[u8], seed: u64) -> usize {
     let mut random = random(9, seed);
     let random = &mut random;
@@ -444,8 +445,8 @@ fn extreme_settings_keep_volumes_whole_for_100_000_steps() {
     assert!((20..50_000).contains(&refused), "{refused} of 100000 steps refused");
 }
 
-/// Plain explicit Euler under the same forces of a smooth ball. The step avoids this form. Returns
-/// the greatest deviation from rest, in radii.
+/// Moves a smooth ball by plain explicit Euler, which [`advance`] does not use, under the same
+/// forces. Returns the greatest deviation from rest, in radii.
 fn explicit_euler(settings: &MotionSettings, seconds: f32, steps: usize) -> f32 {
     let mut ball = Volume::ball(Vec3::ZERO, 1.0, 3, 1);
     kick(&mut ball, 0.3, 0);

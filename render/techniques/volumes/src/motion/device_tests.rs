@@ -62,8 +62,8 @@ fn farthest(one: &Volume, other: &Volume) -> f32 {
     distances(one, other).into_iter().fold(0.0, f32::max)
 }
 
-/// Both crowds after this many steps. `at` sees them before each step and may change the
-/// surroundings.
+/// The volumes after this many steps on the processor, and on the device. Before each step `at`
+/// gets both, and may change the surroundings.
 fn both(
     device: &mut Device,
     volumes: &[Volume],

@@ -1,6 +1,6 @@
 //! The forces on one particle, per unit of mass. Also pushes (e.g. by blown air), the random
-//! velocities that volumes are born with, how radius and centre follow their targets, and the
-//! regions that volumes must stay in.
+//! velocities with which volumes begin, how radius and centre follow their targets, and the regions
+//! that volumes must stay in.
 
 use glam::Vec3;
 use graphics::noise::random;
@@ -44,7 +44,7 @@ pub(super) fn surface_pull(way: Vec3, stiffness: f32, radius: f32, cell: f32) ->
     way * if far { stiffness * radius / square.sqrt() } else { stiffness }
 }
 
-/// Gravity along a surface with this unit normal. If the normal is zero, you get all of it.
+/// Gravity along a surface with this unit normal. If the normal is zero, this is the whole gravity.
 pub(super) fn gravity(acceleration: f32, down: Vec3, normal: Vec3) -> Vec3 {
     (down - normal * down.dot(normal)) * acceleration
 }
@@ -85,7 +85,7 @@ impl Push {
         if fall > 0.0 { self.direction * (self.strength * cell * fall) } else { Vec3::ZERO }
     }
 
-    /// Whether it reaches into the ball about `center`.
+    /// Whether the push acts anywhere in the ball about `center`.
     pub(super) fn reaches(&self, center: Vec3, radius: f32) -> bool {
         let far = self.radius + radius;
         (center - self.center).length_squared() < far * far
@@ -96,8 +96,8 @@ impl Push {
 const MOST: f32 = 3.0;
 
 /// Adds a random velocity to every particle: normal numbers along x, y and z, cut at 3, times
-/// `kick` radii per second. Call this once at birth, and again wherever you pour paint. Pass
-/// another `moment` for each kick of one volume.
+/// `kick` radii per second. Call this once when the volume begins, and again wherever you pour
+/// paint. Pass another `moment` for each kick of one volume.
 pub fn kick(volume: &mut Volume, kick: f32, moment: u64) {
     let mut random = random(volume.seed, moment);
     let speed = kick * volume.radius;
@@ -195,7 +195,7 @@ pub enum KeepIn {
         /// Its greatest corner.
         high: Vec3,
     },
-    /// A ball, with its inside.
+    /// The inside of a ball.
     Ball {
         /// Centre in the unit of the scene.
         center: Vec3,
@@ -212,8 +212,8 @@ pub enum KeepIn {
 }
 
 impl KeepIn {
-    /// The way from `place` to the nearest point that is at least `inset` inside. This is zero if
-    /// you are farther inside.
+    /// The way from `place` to the nearest point that is at least `inset` inside. It is zero if
+    /// `place` already is.
     #[must_use]
     pub fn way_back(&self, place: Vec3, inset: f32) -> Vec3 {
         match *self {
@@ -287,7 +287,7 @@ impl KeepIn {
         }
     }
 
-    /// Its numbers. Two different regions differ in these.
+    /// The shape as numbers. Different regions have different numbers.
     pub(super) fn numbers(&self) -> [f32; 7] {
         let (kind, [a, b, c], [d, e, f]) = match *self {
             Self::Box { low, high } => (0.0, low.to_array(), high.to_array()),
@@ -298,7 +298,8 @@ impl KeepIn {
     }
 }
 
-/// The share of a way of `length` towards a wall that `room` allows. You get at most `share`.
+/// The share of a path towards a wall that `room`, the distance to the wall, allows. The path has
+/// this `length`. You get at most `share`.
 fn within(room: f32, length: f32, share: f32) -> f32 {
     if room <= 0.0 {
         0.0

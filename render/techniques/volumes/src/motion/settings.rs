@@ -17,7 +17,8 @@ pub struct MotionSettings {
     pub cohesion: f32,
     /// Friction, 0 to 1e4 1/s; 40 by default, which is critical for the pressure.
     pub friction: f32,
-    /// Standard deviation of the velocity at birth, 0 to 100 radii a second; 0.3 by default.
+    /// Standard deviation of the velocity with which particles begin, 0 to 100 radii a second; 0.3
+    /// by default.
     pub kick: f32,
     /// Greatest change of the resting radius by the microstructure of the surface, 0 to 0.9 of the
     /// radius; 0.18 by default.

@@ -1,5 +1,6 @@
-//! The guard that keeps volumes star-shaped: from the centre you see every face on its inside. A
-//! mesh of such cones does not cut itself, so it holds a point once or not at all.
+//! The guard that keeps volumes star-shaped: from the centre you see every face on its inside. Each
+//! face forms a cone with the centre. If all cones have positive volumes, the mesh does not cut
+//! itself, so it holds a point once or not at all.
 //!
 //! Also the microstructure of surfaces, which varies the resting radius with the place in the
 //! world.
@@ -9,12 +10,12 @@ use graphics::noise::{SolidHills, random};
 use super::settings::MotionSettings;
 use crate::volume::SphereMesh;
 
-/// Every cone keeps at least this share of the least cone at rest. This leaves room for the
-/// rounding of places in the scene.
+/// The determinant of every cone stays above this share of the least one at rest. This leaves room
+/// for the rounding of places in the scene.
 pub(super) const LEAST_SHARE: f32 = 1.0 / 64.0;
 
-/// In this many rounds, corners of failing faces go half-way to their rays. After that they go all
-/// the way.
+/// In this many rounds, the corners of failing faces go half-way to the rays through their original
+/// directions. After that they go all the way.
 const HALF_WAY_ROUNDS: usize = 8;
 
 /// After this many rounds all corners go to their rays.
@@ -103,7 +104,7 @@ impl Microstructure {
         Self { hills: SolidHills::new(&mut random(seed, STREAM)) }
     }
 
-    /// Its hills. Two different microstructures differ in these.
+    /// The hills. Different microstructures have different hills.
     pub(super) fn hills(self) -> SolidHills {
         self.hills
     }

@@ -295,7 +295,7 @@ fn keep_inside(regions: &[KeepIn], center: Vec3, least: f32, particles: &mut Par
     }
 }
 
-/// Particles come at least this near and at most this far from the centre, in resting radii.
+/// Least and greatest distance of particles from the centre, in resting radii.
 pub(super) const NEAREST: f32 = 1.0 / 32.0;
 pub(super) const FARTHEST: f32 = 6.0;
 

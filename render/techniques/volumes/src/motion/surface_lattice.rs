@@ -76,9 +76,10 @@ impl SurfaceLattice {
         self.places.get(self.sample_of(place) as usize).copied()
     }
 
-    /// The sample that pulls a particle at `place`. `last` pulled it before. Both are indices, or
-    /// [`u32::MAX`] for none. A particle changes to the sample of its place only if this is
-    /// nearer. So it cannot swing between two samples for ever: the energy of the pull falls.
+    /// The sample that pulls a particle at `place`: its index and its place. `last` is the index of
+    /// the sample that pulled the particle before. [`u32::MAX`] means none. A particle changes to
+    /// the sample of its place only if this is nearer. So it cannot swing between two samples for
+    /// ever: the energy of the pull falls.
     #[inline]
     #[must_use]
     pub fn pulling(&self, place: Vec3, last: u32) -> (u32, Option<Vec3>) {
@@ -123,7 +124,7 @@ impl SurfaceLattice {
         self.cell
     }
 
-    /// Two numbers that distinguish its samples from others.
+    /// A checksum of the samples.
     pub(super) fn fingerprint(&self) -> [u32; 2] {
         self.fingerprint
     }

@@ -1,6 +1,5 @@
-//! Draws the scene before a camera with the volumes that hold it, before we compose a picture.
-//! Samples are averaged to pixels here, and you get the parts of a painting of the scene with its
-//! volumes.
+//! Draws the scene that a camera sees, and counts the volumes at each sample, for a picture that we
+//! compose later. Also averages samples to pixels, and makes the parts of a painting in pigments.
 
 use graphics::camera::Camera;
 use graphics::compute::{ColorImage, Compute, Image};
@@ -105,7 +104,8 @@ impl Drawer {
         Ok(Sight { visible, shaded, counts })
     }
 
-    /// Whether the processor counts gated surfaces, though another device makes the pictures.
+    /// Whether the processor counts the volumes that have gates, though another device makes the
+    /// pictures.
     pub(super) fn counts_elsewhere(&self) -> bool {
         !self.scene.gates
     }
@@ -329,7 +329,7 @@ pub(super) struct Parts {
     pub(super) color: Field<[f32; 4]>,
     pub(super) cover: Field<f32>,
     pub(super) ink: Field<f32>,
-    /// Share of the scene's own colours. `None` if no region shows them.
+    /// Share of the scene's own colours at each pixel. `None` if no region shows them.
     pub(super) tint: Option<Field<f32>>,
     pub(super) heights: Field<FilmHeights>,
 }

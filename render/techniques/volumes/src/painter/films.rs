@@ -37,7 +37,7 @@ pub struct VolumePigments {
     /// The ground under all films.
     pub ground: GroundSpec,
     /// Light under which you view the painting. Without relief ([`Lighting::relief`] 0) pictures
-    /// come at the speed of frames.
+    /// are fast enough for an animation.
     pub lighting: Lighting,
 }
 
@@ -70,8 +70,8 @@ impl Films {
         Ok(Self { painter, view, counter: None })
     }
 
-    /// Heights of the films at what each pixel shows of `scene`. If regions have no films, their
-    /// volumes have none.
+    /// Heights of the films at the point of `scene` that each pixel shows. We leave out the volumes
+    /// of regions without films.
     pub(super) fn heights(
         &mut self,
         world: &World,

@@ -1,6 +1,6 @@
 //! Which volumes may hold something that a picture shows. This also loads a scene into the memory
-//! of what draws it, turns the settings of a file into looks of a drawing, and counts volumes and
-//! their shells at each visible point, region by region.
+//! of the processor or a device, turns the settings of a file into the look of a drawing, and
+//! counts volumes and their shells at each visible point, region by region.
 
 use glam::{Mat4, Vec3};
 use graphics::camera::Camera;
@@ -38,7 +38,8 @@ pub(super) struct InSight {
 }
 
 impl InSight {
-    /// Takes what `camera` sees. This does not look at the depths of a picture on a device.
+    /// Takes what `camera` sees. If the picture is on a device, we do not know its depths, and test
+    /// only whether volumes lie inside of the picture.
     pub(super) fn new(camera: &Camera, visible: &Image<Fragment>) -> Self {
         let (width, height) = visible.size();
         let depths = match visible {
@@ -129,8 +130,8 @@ pub(super) struct LoadedScene {
     pub(super) normals: Image<[f32; 4]>,
     bodies: Vec<u32>,
     pub(super) counter: InsideCounter,
-    /// Whether it can count volumes with gates. The processor can, and so can a device if its
-    /// fragments can write to buffers.
+    /// Whether it can count volumes with gates, which limit them to surfaces of one body and
+    /// direction. The processor can, and so can a device if its fragments can write to buffers.
     pub(super) gates: bool,
 }
 
@@ -252,7 +253,7 @@ pub(super) fn inside(regions: &[RegionLook]) -> InsidePaint {
     }
 }
 
-/// This gate lets everything pass: any direction, any body.
+/// A gate without limits: the volume holds surfaces of any direction and any body.
 const OPEN: [f32; 8] = [0.0, 0.0, 0.0, -2.0, 0.0, 0.0, 0.0, 0.0];
 
 #[derive(Debug, Clone, Copy)]
@@ -265,7 +266,8 @@ pub(super) struct Volumes<'a> {
 #[derive(Debug, Clone, Default)]
 pub(super) struct RegionSurfaces {
     surfaces: VolumeSurfaces,
-    /// For each surface: what it faces, the least cosine, and its body.
+    /// The gate of each surface: the direction that its volume faces, the least cosine to this
+    /// direction, and the body.
     gates: Vec<[f32; 8]>,
 }
 

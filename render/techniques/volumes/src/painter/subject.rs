@@ -15,7 +15,8 @@ use crate::script::RegionStyle;
 use crate::settings::{Preset, Settings};
 use crate::world::World;
 
-/// A scene with a style for each region of its volumes, and what it is painted with.
+/// A scene with a style for each region of its volumes, its pigments, and the device that makes its
+/// pictures.
 #[derive(Debug)]
 pub struct Subject<'a> {
     /// The scene.
@@ -28,7 +29,7 @@ pub struct Subject<'a> {
     pub compute: Compute,
 }
 
-/// A moment of the volumes, and how it is seen.
+/// The volumes at one moment, and how you see them.
 #[derive(Debug, Clone, Copy)]
 pub struct View<'a> {
     /// The volumes.
@@ -37,7 +38,7 @@ pub struct View<'a> {
     pub camera: &'a Camera,
     /// Width and height of the picture in pixels.
     pub size: (usize, usize),
-    /// The subject of the picture.
+    /// Contents of the picture.
     pub show: Show,
 }
 

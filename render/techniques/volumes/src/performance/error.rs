@@ -48,9 +48,9 @@ pub enum PerformanceError {
         /// Share of its height, from the top.
         y: f64,
     },
-    /// A volume is to be split that is not there.
+    /// The volume that an event should split is not there.
     #[error("{place}: single volume {number} is not there")]
-    #[hint("split a volume after it is born, and only once")]
+    #[hint("split a volume after it begins, and only once")]
     NoVolume {
         /// The table of the event, with file and line where these are known.
         place: String,

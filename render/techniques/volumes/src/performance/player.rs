@@ -26,9 +26,10 @@ pub struct Performance {
     pub(super) script: Script,
     pub(super) events: Vec<Event>,
     pub(super) next: usize,
-    /// Places of the events that pick one in the first picture.
+    /// The place that each event picks in the first picture. `None` if it does not pick one.
     pub(super) picked: Vec<Option<Vec3>>,
-    /// Seeds of the single volumes that are born, in the order of the script.
+    /// Seed of each single volume (`[[volume]]`) of the script, by its index there. `None` until
+    /// the volume is added to the world.
     pub(super) singles: Vec<Option<u64>>,
 }
 
@@ -125,9 +126,9 @@ impl Performance {
         Ok(())
     }
 
-    /// Adds an event that begins with the next step or later. It must be the last of its kind in
-    /// the script, and it cannot pick its place. This lets you play a performance while you write
-    /// its script.
+    /// Adds an event that begins with the next step or later. No other event of its kind may come
+    /// after it in the script, and it cannot pick its place. This lets you play a performance while
+    /// you write its script.
     pub fn add(&mut self, event: Event) {
         fn place(other: &Event) -> (u32, usize) {
             (other.start, other.action.rank())
@@ -394,7 +395,7 @@ impl Performance {
     ///
     /// # Errors
     /// [`SavedError`] if the file holds no such moment or one of another version, is damaged, or
-    /// was saved over another scene, with other settings or events, or under another wish.
+    /// was saved over another scene, with other settings or events, or with another `wish`.
     pub fn resumed(&self, file: &[u8], wish: &str) -> Result<Self, SavedError> {
         let state = state_of_file(PERFORMANCE, &self.identity(wish), file)?;
         let mut reader = Reader::new(state);
@@ -412,7 +413,7 @@ impl Performance {
         Some(Self { world, next, singles, ..self.clone() })
     }
 
-    /// The digest of all that decides how it continues, except its state.
+    /// The digest of all that decides how the performance continues, except its state.
     fn identity(&self, wish: &str) -> [u8; 32] {
         let done = format!("{:?} {:?} {:?}", self.script, self.events, self.picked);
         identity([wish, &self.world.fingerprint(), &done])

@@ -23,13 +23,13 @@ pub enum UnderPainting {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum InsidePaint {
-    /// The colours of the scene, as on paper.
+    /// The colours of the scene, without a film.
     #[serde(rename = "own-colours")]
     OwnColors,
-    /// The film of their own pigments over what lies under it everywhere.
+    /// The film of the volumes' pigments over the same layer as outside of volumes.
     #[default]
     Glaze,
-    /// The film of their pigments over the colours of the scene.
+    /// The film of the volumes' pigments over the colours of the scene.
     Both,
 }
 
@@ -47,8 +47,8 @@ impl InsidePaint {
     }
 }
 
-/// A picture of the scene without its volumes, with what they do to it. All fields have one value
-/// for each cell of the painting.
+/// A picture of the scene without its volumes. Its last two fields say where volumes show the scene
+/// and how high their films are. All fields have one value for each cell of the painting.
 #[derive(Debug, Clone, Copy)]
 pub struct Drawing<'a> {
     /// Encoded sRGB of the scene, lit and textured but not hatched, with its grey as the fourth

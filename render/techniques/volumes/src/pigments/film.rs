@@ -406,7 +406,7 @@ impl Wetted {
     }
 
     /// The integral on the tangent plane of the nearest sample. `None` if no sample is near, or if
-    /// the plane passes the volume.
+    /// the plane misses the volume.
     fn area_on_plane(
         &self,
         inside: &Inside,
@@ -446,8 +446,8 @@ impl Wetted {
     }
 }
 
-/// How much of a patch of surface as wide as `width` a volume holds, 0 to 1. This is all or
-/// nothing, except for patches that the skin crosses.
+/// The share, 0 to 1, of a patch of surface that a volume holds. The patch is `width` wide. The
+/// share is 0 or 1, except for patches that the skin of the volume crosses.
 fn held_share(inside: &Inside, place: Vec3, normal: Vec3, width: f64) -> f64 {
     let ray: DVec3 = place.as_dvec3() - inside.center();
     let distance = ray.length();

@@ -19,16 +19,18 @@ use crate::volume::Volume;
 /// How volumes look when you show them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Glass {
-    /// Radii of a volume after which white light has the colour of the volume, above 0.
+    /// White light has the colour of a volume after a path of this length in it, above 0, in radii
+    /// of the volume.
     pub deep: f32,
-    /// Share of the shaded face where it is seen straight on, 0..1.
+    /// Opacity of the shaded face where you see it straight on, 0..1.
     pub face: f32,
-    /// Share of the shaded face at its outline, 0..1.
+    /// Opacity of the shaded face at its outline, 0..1.
     pub outline: f32,
 }
 
 impl Default for Glass {
-    /// Coloured after a radius, with light faces and clear outlines.
+    /// Light has the colour of a volume after a path of one radius. Faces are faint, outlines
+    /// clear.
     fn default() -> Self {
         Self { deep: 1.0, face: 0.12, outline: 0.75 }
     }
@@ -43,8 +45,8 @@ const AMBIENT: f32 = 0.45;
 
 impl Glass {
     /// The picture of `scene` through volumes of these encoded colours. It is in encoded sRGB and
-    /// keeps its fourth value. `visible` is what `camera` sees of the scene, and `places` says
-    /// where.
+    /// keeps its fourth value. `visible` is what `camera` sees of the scene, and `places` holds the
+    /// places that it shows.
     ///
     /// # Panics
     /// If the pictures differ in size, or there is not one colour for each volume.
@@ -89,7 +91,8 @@ impl Glass {
         Field::from_values(width, height, seen.collect())
     }
 
-    /// A pixel of the scene behind glass. A face with this colour and light lies before it.
+    /// The colour of a pixel of the scene behind glass of this thickness. If `front` is set, a face
+    /// with this colour and light lies before the scene.
     fn pixel(
         &self,
         scene: [f32; 4],

@@ -177,7 +177,7 @@ pub struct Pencil {
 impl Pencil {
     /// Finds the films that darken the bare ground like a pencil of the encoded `grey`. Full ink
     /// gives this grey, half of it a tone half-way. The black is the black of `grisaille`. A film
-    /// is at most 0.05 mm high, which almost hides.
+    /// is at most 0.05 mm high, which almost hides the ground.
     #[must_use]
     pub fn new(grisaille: &Grisaille, grey: f32) -> Self {
         let luminance = |mm: f64| {

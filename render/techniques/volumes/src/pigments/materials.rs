@@ -1,6 +1,6 @@
 //! Materials of films: a library, the ground under them, and the light under which we match
-//! colours. Also a third paint that takes the cast out of greys of white and black, and encoded
-//! values as linear ones within the reach of paint.
+//! colours. Also a third paint that takes the cast out of greys of white and black, and a
+//! conversion of encoded values to the linear values that paint can reach.
 
 use std::sync::Arc;
 
@@ -153,8 +153,8 @@ pub fn toner(material: &FilmMaterial, [white, black]: [PigmentId; 2]) -> Option<
 
 const STEPS: usize = 4096;
 
-/// The linear values that we paint for encoded ones. They go from the darkest to the lightest tone
-/// that paint reaches, so that differences in shadows and lights survive.
+/// The linear value that we paint for each encoded value. Black becomes the darkest tone that paint
+/// reaches and white the lightest, so that differences in shadows and lights survive.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Tones {
     black: f32,

@@ -31,8 +31,9 @@ pub struct FilmPainterSettings {
 }
 
 impl Default for FilmPainterSettings {
-    /// A glaze over grisaille of white and black with a pencil of 0.15, on cells of 0.2 mm. Films
-    /// of 0.03 to 0.3 mm hide the ground.
+    /// Volumes are glazes over a grisaille of white and black. The pencil darkens the ground to a
+    /// grey of 0.15, and cells are 0.2 mm wide. Films of grisaille are 0.03 to 0.3 mm high and hide
+    /// the ground.
     fn default() -> Self {
         let films = SeparationSettings { lattice: 17, refined: false, ..Default::default() };
         let under = UnderPainting::default();
@@ -119,7 +120,8 @@ impl FilmPainter {
         Self { slots, ..self }
     }
 
-    /// Paints `drawing`. You get one dry layer for each coat that it may have.
+    /// Paints `drawing`. You get one dry layer for each coat that the settings can lay: grisaille,
+    /// own colours, hatching, films.
     ///
     /// # Errors
     /// [`FilmPaintError::Ground`] if the ground cannot be made at this size.
@@ -176,8 +178,8 @@ impl FilmPainter {
         &self.greys
     }
 
-    /// Levels of grey of the cells of row `y` that have a whole film of grisaille. `None` for the
-    /// others.
+    /// For each cell of row `y`, the level of grey if grisaille covers the whole cell. `None` for
+    /// other cells.
     pub(super) fn whole_greys<'a>(
         &self,
         drawing: &'a Drawing<'_>,

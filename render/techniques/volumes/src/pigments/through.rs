@@ -63,7 +63,7 @@ pub struct FilmThrough<'a> {
     pub densities: &'a [Density],
     /// Distances from the eye at which rays end, in the unit of the scene.
     pub ends: Field<f32>,
-    /// Length of a ray per unit along the viewing direction, by half the columns and rows.
+    /// Tangents of half the angle of view, across and upwards.
     tangents: [f32; 2],
 }
 

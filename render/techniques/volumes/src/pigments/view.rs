@@ -1,4 +1,4 @@
-//! Pictures of paintings of volumes at the speed of frames.
+//! Pictures of paintings of volumes, fast enough for the frames of an animation.
 
 use graphics::field::Field;
 use paint::composite::composite_row;
@@ -15,7 +15,7 @@ use super::drawing::Drawing;
 use super::materials::FilmPaintError;
 use super::painter::{Coat, FilmPainter};
 
-/// We composite the coat of this many cells together, unless all are bare.
+/// We composite this many neighbouring cells of a coat together, unless all of them are bare.
 const RUN: usize = 16;
 
 /// The paint of a painter under one light.
@@ -73,7 +73,7 @@ impl FilmView {
     /// The painting of `drawing` as a picture in linear sRGB with white at 1 and the fourth value
     /// at 1. The painter of this view paints it. You get the same picture as from
     /// [`FilmPainter::document`] under this light. Without relief ([`Lighting::relief`] 0) we do
-    /// not need this document, so you get the picture at the speed of frames.
+    /// not need this document, so the picture is fast enough for an animation.
     ///
     /// # Errors
     /// [`FilmPaintError::Ground`] if relief is shown and the ground cannot be made at this size.

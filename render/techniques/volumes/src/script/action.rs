@@ -11,7 +11,7 @@ pub type Recipe = BTreeMap<String, f64>;
 /// and several of one kind in the order of the script.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Action {
-    /// A single volume is born.
+    /// A single volume begins.
     Volume(NewVolume),
     /// Paint is poured.
     Pour(Pour),

@@ -356,8 +356,8 @@ pub struct RegionStyle {
     pub shells: Vec<f32>,
     /// Share of colour by the number of shells. There is one more share than shells.
     pub tints: Vec<f32>,
-    /// We multiply the drawing by this colour inside, below the share of colour: `#rrggbb`. Use
-    /// white for a drawing that stays grey.
+    /// Inside of volumes we multiply the grey drawing by this colour, written `#rrggbb`, and then
+    /// lay the share of colour over it. Use white for a drawing that stays grey.
     pub stain: String,
 }
 

@@ -53,8 +53,8 @@ pub struct Script {
     /// Light under which you see pigments, for example `A` or `5600K`. Without it, this is D65.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub illuminant: Option<String>,
-    /// File of the lamp under which you see pigments instead, beside the script: `FILE`, or
-    /// `FILE#NAME` for one spectrum of several.
+    /// File of a lamp under which you see pigments, instead of `illuminant`. It lies beside the
+    /// script: `FILE`, or `FILE#NAME` for one spectrum of several.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lamp: Option<String>,
     /// Pigments by their letters, at most eight. Slots of paint are in the order of the letters.

@@ -27,8 +27,8 @@ pub struct Recorder {
 }
 
 impl Action {
-    /// The action with the digits of a file. A session must round an action before it does it.
-    /// Then its recording plays the same bits.
+    /// The action with its numbers rounded as a file holds them. A session must round an action
+    /// before it does it. Then its recording plays the same bits.
     #[must_use]
     pub fn rounded(&self) -> Self {
         fn row(row: [f64; 3]) -> [f64; 3] {

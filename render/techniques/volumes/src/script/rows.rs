@@ -148,8 +148,8 @@ pub fn frames_fit(seconds: f64, rate: f64) -> Result<u64, Box<Fault>> {
     Err(Fault::new(&KeyPath::of("seconds"), wanted, format!("{count} frames"), hint))
 }
 
-/// The fault of cells that are too narrow. `cell` is their width by the scene's longest side, and
-/// cells of `fits` would do.
+/// The fault of cells that are too narrow. `cell` is their width as a share of the scene's longest
+/// side. Cells of the width `fits` are possible.
 #[must_use]
 pub fn cells_too_small(cell: f64, fits: f64) -> Box<Fault> {
     let wanted = format!("a width of at most {MOST_CELLS} cells");
@@ -157,7 +157,7 @@ pub fn cells_too_small(cell: f64, fits: f64) -> Box<Fault> {
     Fault::new(&KeyPath::of("grid.cell"), wanted, cell as f32, hint)
 }
 
-/// The fault of too many samples in a cell: `found`, where `fits` would do.
+/// The fault of too many samples in a cell: `found`, of which only `fits` are possible.
 #[must_use]
 pub fn samples_too_many(found: usize, fits: usize) -> Box<Fault> {
     let wanted = format!("1 to {fits} for cells of this width");

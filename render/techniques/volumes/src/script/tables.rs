@@ -23,8 +23,8 @@ pub struct RegionTable {
     /// If you give `shells`, the steps are even.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tint: Option<Vec<f64>>,
-    /// We multiply the drawing by this colour inside, below its own colours. Without it, this
-    /// comes from the settings. You cannot use it with pigments.
+    /// Inside of volumes we multiply the grey drawing by this colour, and then lay the scene's own
+    /// colours over it. Without it, this comes from the settings. You cannot use it with pigments.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stain: Option<String>,
 }
@@ -56,7 +56,7 @@ pub struct VolumeTable {
     /// Level of detail of its mesh, 0 to 5. Without it, this is 3.
     #[serde(default = "usual_detail")]
     pub detail: u8,
-    /// Time at which it is born in seconds, 0 to 3600.
+    /// Time at which it begins in seconds, 0 to 3600.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub from_s: f64,
     /// Name of its region. Without it, this is the first.

@@ -654,7 +654,7 @@ fn a_script_in_memory_is_checked_before_it_is_written() {
     assert_eq!(error.to_string(), "[[push]] 1, strength takes 0 to 1000000, found `inf`");
 }
 
-/// We put these pieces into texts.
+/// The random changes insert these pieces into scripts.
 const PIECES: [&str; 32] = [
     "=",
     "[",

@@ -9,8 +9,9 @@ use super::file::{FormatVersion, Script};
 use crate::settings::{GridTable, Settings};
 use crate::toml_text::{Fault, KeyPath, Source, TextError, read_text};
 
-/// Only the settings of a script. A script keeps only what it changes. This finds unknown keys and
-/// wrong types with their lines.
+/// The settings of a script as typed tables. A [`Script`] holds its settings as plain TOML, so we
+/// parse the text a second time into these tables. This finds unknown keys and wrong types with
+/// their lines.
 #[derive(Deserialize)]
 struct OwnSettings {
     #[serde(default, rename = "settings")]

@@ -115,8 +115,9 @@ impl Surface<'_> {
         self.pairs[from..].iter().take_while(move |pair| pair.0 == piece).map(|pair| pair.1)
     }
 
-    /// Whether a piece shares surface with another at `step` from it. Steps along single axes, in
-    /// any order, through pieces that share surface may also lead there.
+    /// Whether `piece` is joined to the piece `to`, in the cell at `step` from its own. They share
+    /// surface, or a path leads from one to the other: it makes `step` in single axes, in any
+    /// order, through pieces that share surface.
     fn leads(&self, piece: u32, to: u32, step: [i32; 3]) -> bool {
         self.pairs.binary_search(&(piece, to)).is_ok() || self.walks(piece, to, step)
     }

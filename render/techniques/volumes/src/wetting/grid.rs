@@ -1,6 +1,6 @@
-//! The grid of a scene: samples of its surface, cells, links between them and the reach of paint.
-//! A cell knows its middle, its area and its room for paint. The reach says how large a volume is
-//! that holds an amount of paint. Its film is as thick as any other.
+//! The grid of a scene: samples of its surface, cells, links between them and the reach of paint. A
+//! cell knows its middle, its area and its room for paint. The reach says how large the volume of
+//! an amount of paint is, so that the films of all volumes have one thickness.
 
 use glam::Vec3;
 use graphics::mesh::Mesh;

@@ -5,15 +5,15 @@ use documents::hint::Explain;
 use glam::{DVec3, Vec3};
 use graphics::mesh::MeshFault;
 
-/// The middle of the model lies here in its cell, along each axis. We avoid 0 and 1/2, and their
-/// sums with round shares of a cell. Then faces of simple models lie inside of cells, not on the
-/// walls between them.
+/// Where the middle of the model lies in its cell, as a share of each side. We avoid 0 and 1/2, and
+/// their sums with round shares of a cell. Then faces of simple models lie inside of cells, not on
+/// the walls between them.
 const MIDDLE: f32 = 0.37;
 
 /// Bits of a coordinate in a [`Lattice::key`].
 const BITS: u32 = 21;
 
-/// Cells may have coordinates up to this on either side of the middle.
+/// Greatest coordinate of a cell, counted from the middle in either direction.
 const FARTHEST: f32 = (1 << (BITS - 1)) as f32 - 2.0;
 
 /// Cubes of one size that fill space. They are laid around the middle of a model.

@@ -22,7 +22,8 @@ const FACING: f32 = -0.2;
 
 #[derive(Debug, Clone, Default)]
 pub(super) struct Pieces {
-    /// Index of the first entry of each triangle. The last entry is the number of entries.
+    /// An entry is a cell that a triangle enters. This is the index of the first entry of each
+    /// triangle, and at the end the number of entries.
     starts: Vec<u32>,
     cells: Vec<[i32; 3]>,
     of_entries: Vec<u32>,
@@ -89,7 +90,8 @@ impl Pieces {
         found.ok().map(|index| own.start + index)
     }
 
-    /// Unites the entries of two triangles into the cells that their common edge touches.
+    /// Makes one piece of the entries of two triangles, in each cell that their common edge
+    /// touches.
     fn connect(&self, edge: &SharedEdge, places: &[DVec3], roots: &mut [u32]) {
         let line = edge.line.map(|corner| places[corner as usize]);
         let [own, others] = edge.triangles.map(|triangle| self.entries_of(triangle as usize));

@@ -14,7 +14,7 @@ pub const SAMPLES_PER_CELL: usize = 64;
 /// be.
 const MOST_SAMPLES: f64 = (MOST_CELLS * SAMPLES_PER_CELL) as f64;
 
-/// We halve a triangle this often, until one of its parts stands for a place.
+/// We halve a triangle this often. Then the middle of the part that is left is the place.
 const HALVINGS: u32 = 32;
 
 /// Places spread evenly over the surface of a mesh, in the order of the cells that hold them. All

@@ -14,7 +14,7 @@ pub const FASTEST_RATE: f32 = 0.067;
 
 const STEEPEST: f32 = 1000.0;
 
-/// The number 1 in heads and shares.
+/// Heads and shares are integers. This one stands for 1.
 const ONE: u64 = 1 << 16;
 
 /// A thread works on this many cells at a time.
@@ -35,7 +35,7 @@ pub struct Spilling {
     /// Share of a difference of heads that crosses a face, an edge and a corner per step, in parts
     /// of 65536.
     pub(super) rates: [u64; 3],
-    /// Height of each cell as a head, in parts of 65536.
+    /// Head that each cell gains by its height, in parts of 65536.
     pub(super) lifts: Vec<u32>,
     /// Whether cells lie at different heights, or a cell has no room for 16 films.
     pub(super) uneven: bool,

@@ -295,7 +295,7 @@ impl World {
         f64::from(QUANTA_PER_FACE) * area / (cell * cell)
     }
 
-    /// A film on all surface within this radius about `center` has `amount` quanta.
+    /// Radius of the ball about `center` in which a film on all surface has `amount` quanta.
     fn radius_of_film(&self, center: Vec3, amount: u32) -> f32 {
         let places = &self.grid.samples.places;
         let mut squares: Vec<f32> =

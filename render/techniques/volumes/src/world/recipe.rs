@@ -1,5 +1,5 @@
-//! Shares of pigments, and how we measure out an amount by them in whole quanta. Also the place of
-//! something that moves at a time.
+//! Shares of pigments, and whole quanta of each pigment in an amount of paint with these shares.
+//! Also tracks, which say where a moving source is at each time.
 
 use glam::Vec3;
 use paint::amount::MAX_COLUMN;

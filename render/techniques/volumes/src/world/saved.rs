@@ -90,7 +90,7 @@ impl World {
     ///
     /// # Errors
     /// [`SavedError`] if the file holds no world or one of another version, is damaged, or was
-    /// saved over another scene, with other settings, in other regions, or under another wish.
+    /// saved over another scene, with other settings, in other regions, or with another `wish`.
     pub fn resumed(&self, file: &[u8], wish: &str) -> Result<Self, SavedError> {
         let state = state_of_file(WORLD, &identity([wish, &self.fingerprint()]), file)?;
         let mut reader = Reader::new(state);

@@ -37,7 +37,7 @@ pub struct WorldSettings {
     /// Share of a difference of heads that spills across a face in a step, 0 to
     /// [`crate::wetting::FASTEST_RATE`]; 0.04 by default.
     pub rate: f32,
-    /// Head of a cell that is higher than another by its width, 0 to 1000; 0 by default.
+    /// Head that a cell gains for each cell width that it lies higher, 0 to 1000; 0 by default.
     pub slope: f32,
     /// Seed of everything random.
     pub seed: u64,

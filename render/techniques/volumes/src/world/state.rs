@@ -215,7 +215,7 @@ impl World {
         self.numbered
     }
 
-    /// Adds a kicked ball and returns its index.
+    /// Adds a ball with random velocities and returns its index.
     pub(super) fn begin(
         &mut self,
         center: Vec3,

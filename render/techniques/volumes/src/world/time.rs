@@ -180,7 +180,8 @@ impl StepDevice {
     }
 }
 
-/// A whole volume dries if at least this share of its surface is below the dryer.
+/// A whole volume dries if at least this share of the surface below it lies within the radius that
+/// dries.
 const SHARE: f32 = 0.5;
 
 impl World {
@@ -230,8 +231,8 @@ impl World {
     }
 }
 
-/// A volume begins within this share of the giver's radius. This is usually less than its deepest
-/// dents.
+/// A volume begins at most this share of the giver's radius from the giver's centre. Usually even
+/// the deepest dents of the giver lie farther out, so you do not see it begin.
 const HIDDEN: f32 = 0.7;
 
 /// Level of detail of the volumes of the grid.

@@ -39,8 +39,10 @@ const THIN_FLOW: f32 = 0.35;
 const THIN_FADE: f32 = 0.15;
 
 impl DryBrushReach {
-    /// The share of the paint that stays, 0 to 1, at a `height` of the paper. A `mask` below
-    /// 1 lowers the threshold. At 0 all paint stays. `edge` is the strength of the outline.
+    /// Share of the paint that stays, 0 to 1, on paper of this `height`. The wash has the colour
+    /// `[r, g, b, _]` and this `flow`. `mask` and `edge` (strength of the outline) scale
+    /// [`Self::threshold`]: a small `mask` or a strong outline lowers it, and then more paint
+    /// stays. Where `mask` is 0, all paint stays.
     #[inline(always)]
     fn kept(self, [r, g, b, _]: [f32; 4], height: f32, flow: f32, edge: f32, mask: f32) -> f32 {
         let thin = lesser(greater((THIN_FLOW - flow) / THIN_FADE, 0.0), 1.0);

@@ -11,10 +11,10 @@ use graphics::smoothstep;
 /// Depth of the dark rim, as a share of the radius of its bloom. Chosen by eye.
 const RIM: f32 = 0.06;
 
-/// Width over which the rim begins outside, as a share of the radius. Chosen by eye.
+/// Width over which the rim fades out beyond the front, as a share of the radius. Chosen by eye.
 const FRONT: f32 = 0.02;
 
-/// Least width over which the rim begins, in pixels.
+/// Least width over which the rim fades out beyond the front, in pixels.
 const FRONT_PX: f32 = 0.75;
 
 /// How far the front reaches outwards and inwards, in lobes of three sizes. Each pair holds the
@@ -40,8 +40,8 @@ const OVAL: [f32; 2] = [1.2, 0.84];
 /// How much paler a bloom is inside its rim, at most. Chosen by eye.
 const PALE: f32 = 0.3;
 
-/// Differences of colour (distance in encoded RGB) up to the first lie in one wash, from the
-/// second on in another: wider than the steps of a gradient. Chosen by eye.
+/// Colours that differ by at most the first value (distance in encoded RGB) lie in one wash, from
+/// the second value on in two. Both are greater than the steps of a gradient. Chosen by eye.
 const ONE_WASH: [f32; 2] = [0.25, 0.4];
 
 #[derive(Debug, Clone, Copy)]
@@ -49,11 +49,11 @@ struct Bloom {
     x: f32,
     y: f32,
     radius: f32,
-    /// Where we take the lobes of its front from the noise.
+    /// The point in the noise around which we take the lobes of its front.
     lobes: [f32; 2],
     /// Cosine and sine of the direction in which it is longer.
     along: [f32; 2],
-    /// The wash that it falls into.
+    /// Colour of the wash into which the water falls.
     color: [f32; 3],
 }
 
@@ -120,7 +120,7 @@ pub fn back_runs(wash: &Field<[f32; 4]>, settings: &BackRunSettings) -> Field<f3
 struct Front {
     lobes: [Hills; 3],
     currents: [Hills; 2],
-    /// Waves of the currents in a pixel.
+    /// Waves of the currents per pixel.
     waves: f32,
 }
 

@@ -1,4 +1,5 @@
-//! Pictures of whole worlds: order, threads, the cut into triangles, full grids, other worlds.
+//! Tests pictures of whole worlds. For example, they must not depend on the order of volumes, on
+//! threads or on how the mesh is cut into triangles, and a full grid must colour all that you see.
 //! Also checks that every setting does something: to the volumes of a world, to a picture, or to a
 //! film.
 
@@ -83,8 +84,8 @@ fn a_full_grid_colours_all_that_is_seen() {
     }
 }
 
-/// Counts the pixels with different masks, the ones inside of a volume, and all, on a plane of two
-/// triangles and one of 20,000.
+/// Draws the masks of a plane of 2 triangles and of the same plane of 20,000 triangles. Returns the
+/// number of pixels in which they differ, of pixels inside of volumes, and of all pixels.
 fn differing(act: impl Fn(&mut World)) -> [usize; 3] {
     let scenes = [1, 100].map(|squares| {
         let mesh = sheet(squares, |u, v| [12.0 * u - 6.0, 0.0, 12.0 * v - 6.0]);
@@ -273,7 +274,7 @@ const OF_PICTURES: [&str; 18] = [
 
 const OF_SAMPLES: [&str; 2] = ["picture.samples = 2", "picture.paper = \"#102030\""];
 
-/// Settings of the regions that a script does not describe.
+/// Settings for regions that a script does not describe.
 const OF_REGIONS: [&str; 4] = [
     "drawing.shells = [1.0, 0.5]",
     "drawing.tint = [0.0, 0.1, 0.2, 0.9, 1.0]",
