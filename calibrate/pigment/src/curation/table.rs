@@ -13,7 +13,6 @@ use spectra::swatch_file::{SwatchColor, SwatchEntry, SwatchFile, d50_white};
 use super::change::CurationError;
 use crate::evaluate::{Viewing, rounded};
 use crate::library::{AmountKind, LibraryError, Pigment, PigmentLibrary};
-use crate::recipe::PigmentId;
 
 /// Names of the curves in the order in which we write them. We use the last one for pigments with unknown
 /// S.

@@ -588,7 +588,9 @@ pub enum PainterError {
     Cancelled(#[from] Cancelled),
     /// The camera has no viewing direction, or upwards is along it.
     #[error("the camera at {eye} looks at {target}, with {up} upwards")]
-    #[hint("place the eye away from its target, and choose an upwards direction that is not along the view")]
+    #[hint(
+        "place the eye away from its target, and choose an upwards direction that is not along the view"
+    )]
     Camera {
         /// Its eye.
         eye: Vec3,

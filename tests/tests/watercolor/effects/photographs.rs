@@ -228,8 +228,7 @@ fn a_large_picture_has_the_regions_of_a_smaller_one_with_crisp_outlines() {
     let mut settings = plain();
     settings.reference_px = 1000.0;
     let [small, large] = [1600, 2400].map(|width| {
-        let painter = PhotographPainter::new(settings.clone()).with_width_px(width);
-        painter.prepare(&sky()).unwrap()
+        PhotographPainter::new(settings.clone()).with_width_px(width).prepare(&sky()).unwrap()
     });
     assert_eq!(small.regions, large.regions);
     assert_eq!(large.original.width(), 1600);

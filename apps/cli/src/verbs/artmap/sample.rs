@@ -222,7 +222,8 @@ fn remark(
         )])?;
     }
     if set.samples.len() == 1 {
-        console.remark("one sample has a single tone: mark several passages, from dark to light")?;
+        console
+            .remark("one sample has a single tone: mark several passages, from dark to light")?;
     }
     Ok(())
 }

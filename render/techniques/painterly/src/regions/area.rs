@@ -5,7 +5,7 @@ use graphics::field::Field;
 use graphics::mesh::Mesh;
 
 use super::super::settings::Settings;
-use super::{Region, RegionArea, Regions, RegionsError};
+use super::{RegionArea, Regions, RegionsError};
 
 /// We mark the regions of a picture in at most this many pixels along its longer side.
 const MOST_PX: f32 = 2048.0;
@@ -202,6 +202,7 @@ fn within(points: &[[f32; 2]], at: Vec2) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::regions::Region;
 
     fn regions(list: Vec<Region>) -> Regions {
         Regions { name: "r".to_owned(), list, ..Regions::default() }
