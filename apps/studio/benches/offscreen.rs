@@ -1,11 +1,11 @@
 //! Frames of the whole window drawn on a graphics adapter without a window system.
 //!
 //! `cargo bench -p impasto-studio --bench offscreen [-- WIDTHxHEIGHT] [flat] [cpu] [SECONDS]`
-//! paints one stroke at 95 mm/s, as a hand with a mouse would. It draws frames as fast as they
-//! come, and waits for each. If you pass nothing, this uses 3840 x 2160 pixels at two a point, the
-//! round brush that the program opens with, the paint on the graphics adapter, and 10 seconds.
-//! `flat` takes a loaded flat of 25 mm, `cpu` paints on the processor. In a window you also wait
-//! for the display.
+//! paints one stroke at 95 mm/s, as a hand with a mouse would. It draws one frame after the other,
+//! and waits until each is done. If you pass nothing, this uses 3840 x 2160 pixels at 2 pixels per
+//! point, the round brush that the program opens with, the paint on the graphics adapter, and 10
+//! seconds. `flat` takes a loaded flat brush of 25 mm, `cpu` simulates the paint on the processor.
+//! In a window you also wait for the display.
 
 #![expect(clippy::print_stdout, clippy::unwrap_used, reason = "a bench prints, and may panic")]
 
@@ -31,12 +31,12 @@ use studio::files::{FiguresLog, Files, Home, Preferences};
 use studio::pen::{Pen, PenSettings};
 use studio::theme;
 
-/// Speed of the hand.
+/// Speed of the simulated hand.
 const MM_PER_SECOND: f64 = 95.0;
 const CANVAS_MM: f64 = 192.0;
 /// Time between two positions of the mouse.
 const INTERVAL: Duration = Duration::from_millis(4);
-/// Pixels of the window a point.
+/// Pixels per point of the window.
 const DENSITY: f32 = 2.0;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -90,7 +90,7 @@ fn window(
         .with_pixels_per_point(DENSITY)
         .with_render_cursor(false)
         .with_context_setup(theme::apply)
-        .renderer(Kept { state, target: None })
+        .renderer(OffscreenTexture { state, target: None })
         .build_ui_state(
             move |ui, studio: &mut Option<Studio>| {
                 let studio = studio.get_or_insert_with(|| {
@@ -115,13 +115,14 @@ fn window(
         )
 }
 
-/// A texture in place of the window. We draw it and wait for it, but never read it.
-struct Kept {
+/// A texture that takes the place of a window. We draw into it and wait until it is drawn, but
+/// never read it.
+struct OffscreenTexture {
     state: RenderState,
     target: Option<wgpu::Texture>,
 }
 
-impl TestRenderer for Kept {
+impl TestRenderer for OffscreenTexture {
     fn handle_delta(&mut self, delta: &mut TexturesDelta) {
         let mut renderer = self.state.renderer.write();
         let set: Vec<_> = delta.set.drain().collect();
@@ -181,7 +182,7 @@ impl TestRenderer for Kept {
     }
 }
 
-/// Bounding box of the canvas in pixels, from the last line of the log of figures.
+/// Bounding box of the canvas in pixels, from the last line of the performance log.
 fn last_canvas(log: &std::path::Path) -> Result<[f64; 4], Box<dyn Error>> {
     let text = std::fs::read_to_string(log)?;
     let line = text.lines().last().ok_or("no figures were printed")?;
@@ -194,7 +195,8 @@ fn press(harness: &mut Harness<'static, Option<Studio>>, text: &str) {
     harness.step();
 }
 
-/// Seconds of each frame: for the step of the interface, and for drawing it.
+/// Paints one stroke. Returns two times for each frame, in seconds: for the step of the interface,
+/// and for drawing it.
 fn paint(
     harness: &mut Harness<'static, Option<Studio>>,
     [left, top, right, bottom]: [f64; 4],

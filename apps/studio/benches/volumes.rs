@@ -1,8 +1,9 @@
 //! Speed of a scene of paint volumes while you work in it. This uses the worker alone, and asks for
 //! pictures as a window of 1280 x 800 does.
 //!
-//! `cargo bench -p impasto-studio --bench volumes` pours on the village, turns it, and does both.
-//! It prints pictures a second, the speed of time, and the time from a pour to the first colour.
+//! `cargo bench -p impasto-studio --bench volumes` pours paint on the village, turns the view, and
+//! does both at once. It prints the pictures per second, how fast the simulation runs compared with
+//! real time, and the time from the start of a pour to the first colour.
 
 #![expect(clippy::print_stdout, reason = "a bench prints")]
 
@@ -23,7 +24,7 @@ const SIZE: [usize; 2] = [954, 704];
 /// Time of each measurement.
 const LASTS: Duration = Duration::from_secs(5);
 
-/// Time between two commands of the hand.
+/// Time between two commands of the simulated hand.
 const HAND: Duration = Duration::from_millis(8);
 
 struct Bench {
@@ -68,7 +69,8 @@ impl Bench {
         })
     }
 
-    /// Measures while it calls `act` with the elapsed seconds.
+    /// Calls `act` with the elapsed seconds again and again, and prints the pictures per second
+    /// meanwhile.
     fn measure(&mut self, what: &str, mut act: impl FnMut(&Self, f32)) {
         let start = Instant::now();
         let pictures = self.pictures;
@@ -89,8 +91,8 @@ impl Bench {
         );
     }
 
-    /// Turns the scene while volumes show something else inside. Prints the longest time without a
-    /// picture, and the time until the paint is mixed.
+    /// Switches what the volumes show inside, and turns the view meanwhile. Prints the longest time
+    /// without a new picture, and the time until the paint is mixed.
     fn switch_to(&mut self, inside: Inside) {
         let Some(look) = self.state.as_ref().map(|state| state.look) else { return };
         self.worker.ask(VolumeCommand::Look(Look { inside, ..look }));

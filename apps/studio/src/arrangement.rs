@@ -208,7 +208,8 @@ impl Arrangement {
         }
     }
 
-    /// The place after a move; `None` if the panel is there already or there is no such place.
+    /// The place to which this step moves the panel. `None` if the panel is there already or there
+    /// is no such place.
     #[must_use]
     pub fn place_after(&self, key: &str, step: Move) -> Option<Place> {
         let (side, group, _) = self.position(key)?;
@@ -230,8 +231,8 @@ impl Arrangement {
         }
     }
 
-    /// Moves a panel and shows it there. This does nothing if there is no such panel or place, or
-    /// if it is there already.
+    /// Moves a panel to a place and shows it. This does nothing if there is no such panel or place,
+    /// or if the panel is there already.
     pub fn move_to(&mut self, key: &str, place: Place) {
         let Some((side, group, tab)) = self.position(key) else { return };
         let (Place::Tab(to, at) | Place::Before(to, at)) = place;
@@ -268,9 +269,11 @@ pub enum Place {
 /// A step that the menu of a panel offers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Move {
-    /// Above the group, or above the one before.
+    /// To a group of its own above its present group. If it is alone in its group, it goes above
+    /// the group before.
     Up,
-    /// Below the group, or below the one after.
+    /// To a group of its own below its present group. If it is alone in its group, it goes below
+    /// the group after.
     Down,
     /// To the end of the other column.
     OtherColumn,
@@ -302,10 +305,10 @@ pub struct HeightRequest {
 /// A panel that scrolls may shrink to this height, in points.
 const LEAST: f32 = 192.0;
 
-/// Shares `room` points among groups from the top down. A panel with `whole` does not shrink below
-/// the room, others may scroll. If they do not fit, this folds the groups that you have not used
-/// for longest. Returns the height of each, `None` for a folded one. The last open group gets the
-/// remaining height.
+/// Shares `room` points among groups from the top down. A panel with `whole` gets its wanted
+/// height, at most all of `room`. Others may scroll. If they do not fit, this folds the groups that
+/// you have not used for longest. Returns the height of each, `None` for a folded one. The last
+/// open group gets the remaining height.
 #[must_use]
 pub fn heights(requests: &[HeightRequest], room: f32) -> Vec<Option<f32>> {
     let least =

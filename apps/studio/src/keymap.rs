@@ -132,8 +132,8 @@ impl FromStr for Shortcut {
     }
 }
 
-/// Name of an action that serializes as a text, a number, or an object with one key. This joins its
-/// texts and numbers by hyphens.
+/// Name of an action, from its serialized form: a text, a number, or an object with one key. This
+/// joins the texts and numbers by hyphens, for example `tool-paint`.
 #[must_use]
 pub fn name_of(action: &impl Serialize) -> String {
     // An action without a JSON form has an empty name, which never occurs in preferences.
@@ -162,7 +162,7 @@ pub struct KeyRow {
     pub description: String,
     /// Heading of the action.
     pub group: &'static str,
-    /// Its keys, unless you change them.
+    /// Its standard keys, in use unless you change them.
     pub standard: Vec<Shortcut>,
     /// Keys in use.
     pub keys: Vec<Shortcut>,
@@ -210,7 +210,7 @@ impl KeyTable {
         self.rows.iter().find(|row| row.name == name)
     }
 
-    /// The first row that a pressed key belongs to.
+    /// The first row with a shortcut that this pressed key triggers.
     #[must_use]
     pub fn find(&self, key: Key, modifiers: Modifiers) -> Option<&KeyRow> {
         self.rows
@@ -287,8 +287,8 @@ impl KeyTable {
     }
 }
 
-/// Texts of the keys of each action without its standard keys, by its name. We keep names that this
-/// version does not know.
+/// The keys of each action that does not have its standard keys, by the name of the action. Each
+/// key is a text, e.g. `Ctrl+Z`. We keep names that this version does not know.
 pub type Changes = BTreeMap<String, Vec<String>>;
 
 /// The workspace that a key is pressed in. Each has its own table.
@@ -311,8 +311,8 @@ pub struct Keymap {
 }
 
 impl Keymap {
-    /// The tables of these rows with your changes, and faults in these: unknown names, texts that
-    /// are not a key, and keys of two actions, which go to the first.
+    /// Tables of these rows with your changes. The second value lists the faults in the changes:
+    /// unknown names, texts that are not a key, and keys of two actions, which go to the first.
     #[must_use]
     pub fn new(easel: Vec<KeyRow>, scenes: Vec<KeyRow>, changes: &Changes) -> (Self, Vec<String>) {
         let mut tables = [KeyTable::new(easel), KeyTable::new(scenes)];

@@ -1,20 +1,22 @@
-//! The pace of frames that other threads ask for: at most one for each picture of the display.
+//! The pace of frames that other threads ask for: at most one for each refresh of the display.
 //!
-//! If the last frame is older than this, we draw the next at once, so a pen that begins to paint
-//! waits for nothing. Input of the window system has its own frames, which wait for the display.
+//! If the last frame is older than one refresh, we draw the next at once, so a pen that begins to
+//! paint waits for nothing. Frames for input of the window system are not paced here. They wait for
+//! the display.
 
 use web_time::{Duration, Instant};
 
 use eframe::egui::{Context, Id};
 
-/// Pictures of a display in a second, if we do not know better.
+/// Refresh rate that we assume if the display reports none, in hertz.
 const USUAL_HZ: f64 = 60.0;
 
-/// We believe rates of displays in this range, in hertz.
+/// Refresh rates that we believe, in hertz. For any other rate we assume [`USUAL_HZ`].
 const RATES_HZ: std::ops::RangeInclusive<f64> = 24.0..=500.0;
 
 #[cfg(not(target_arch = "wasm32"))]
-/// Time from one frame to the next while frames make room for the paint: 20 a second.
+/// Time from one frame to the next while drawing gives way to the paint. This gives 20 frames a
+/// second.
 const SLOT_BEHIND: Duration = Duration::from_millis(48);
 
 /// Delay of an immediate frame. Without any delay egui would draw two frames.
@@ -22,13 +24,13 @@ const AT_ONCE: Duration = Duration::from_nanos(1);
 
 #[derive(Debug, Clone, Copy)]
 struct Pace {
-    /// Time from one picture of the display to the next.
+    /// Time from one refresh of the display to the next.
     slot: Duration,
-    /// Shortest time from one frame to the next while something else shows the changes.
+    /// Shortest time from one frame to the next while something else shows the changes of a stroke.
     rare: Option<Duration>,
     /// Start of the last frame.
     last: Option<Instant>,
-    /// Whether another thread has asked for a frame since.
+    /// Whether another thread has asked for a frame since the last one.
     woken: bool,
 }
 
@@ -40,20 +42,20 @@ impl Pace {
 }
 
 #[cfg(not(target_arch = "wasm32"))]
-/// Sets the rate of the display, in thousandths of a hertz, if it is known.
+/// Sets the refresh rate of the display, in thousandths of a hertz, if it is known.
 pub(crate) fn set_display(context: &Context, millihertz: Option<u32>) {
     change(context, |pace| pace.slot = slot_of(millihertz));
 }
 
-/// Sets the shortest time between two frames that are asked for here, while something else shows
-/// the changes. `None` allows one for each picture of the display. Returns whether frames were rare
-/// before.
+/// Sets the shortest time between two frames for other threads, while something else shows the
+/// changes of a stroke. `None` allows one frame for each refresh of the display. Returns whether a
+/// time was set before.
 pub(crate) fn set_rare(context: &Context, rare: Option<Duration>) -> bool {
     change(context, |pace| std::mem::replace(&mut pace.rare, rare)).is_some()
 }
 
-/// Notes that a frame begins. If another thread asked for it, one more follows in the next slot,
-/// because some layouts need two frames.
+/// Notes that a frame begins. If another thread asked for it, this asks for one more frame, because
+/// some layouts need two.
 pub(crate) fn begin_frame(context: &Context, now: Instant) {
     let (woken, slot) = change(context, |pace| {
         pace.last = Some(now);
@@ -70,7 +72,7 @@ pub(crate) fn wake(context: &Context) {
 }
 
 #[cfg(not(target_arch = "wasm32"))]
-/// Time to wait before a frame that would begin `now`. If the processor both draws and paints, this
+/// Time to wait before a frame that would begin `now`, if the processor both draws and paints. This
 /// leaves 20 frames a second to draw. Call it also if input of the window system asks for frames.
 pub(crate) fn give_way(context: &Context, now: Instant) -> Duration {
     change(context, |pace| delay(pace.last, now, SLOT_BEHIND))
@@ -84,18 +86,19 @@ fn wake_at(context: &Context, now: Instant) {
     context.request_repaint_after(delay.max(AT_ONCE));
 }
 
-/// Asks for a frame in `soon`, but not before the next slot.
+/// Asks for a frame after the time `soon`, but not within one refresh after the last frame.
 pub(crate) fn frame_after(context: &Context, soon: Duration, now: Instant) {
     let delay = change(context, |pace| delay(pace.last, now, pace.between()));
     context.request_repaint_after(soon.max(delay).max(AT_ONCE));
 }
 
-/// Time from `now` until a frame may begin, if the last one began at `last`.
+/// Time from `now` until a frame may begin, if the last one began at `last` and frames are at least
+/// `slot` apart.
 fn delay(last: Option<Instant>, now: Instant, slot: Duration) -> Duration {
     last.map_or(Duration::ZERO, |last| (last + slot).saturating_duration_since(now).min(slot))
 }
 
-/// Time of one picture of a display.
+/// Time of one refresh of a display.
 fn slot_of(millihertz: Option<u32>) -> Duration {
     let reported = millihertz.map(|rate| f64::from(rate) / 1000.0);
     Duration::from_secs_f64(
@@ -144,8 +147,8 @@ mod tests {
         }
     }
 
-    /// A context with a display of 50 Hz after its first frames, which egui asks for itself, and a
-    /// function that returns the delays of the requested frames.
+    /// A context with a display of 50 Hz after its first frames, which egui asks for itself. The
+    /// function returns the delays of the frames requested since.
     fn paced(start: Instant) -> (Context, impl Fn() -> Vec<Duration>) {
         let context = Context::default();
         let asked = Arc::new(Mutex::new(Vec::new()));

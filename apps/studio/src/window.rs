@@ -67,7 +67,8 @@ pub fn run(start: Start) -> Result<(), Problem> {
 struct Framed {
     studio: Studio,
     draws_on_processor: bool,
-    /// How long the previous frame and this one waited for the paint.
+    /// Time for which the previous frame and this one waited, so that the processor could simulate
+    /// paint.
     waited: [Duration; 2],
 }
 

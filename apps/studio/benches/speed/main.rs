@@ -1,15 +1,15 @@
 //! Speed and memory of the built program on a virtual screen.
 //!
-//! `cargo bench -p impasto-studio --bench speed [-- MEASUREMENT ..] [SECONDS]` measures, by
-//! names:
+//! `cargo bench -p impasto-studio --bench speed [-- MEASUREMENT ..] [SECONDS]` makes the
+//! measurements that you name:
 //!
 //! - `round`: the round brush that the program opens with (60 cells) at 95 mm/s
-//! - `flat`: a loaded flat of 25 mm (250 cells), as fast
+//! - `flat`: a loaded flat brush of 25 mm (250 cells), as fast
 //! - `idle`: time of the processor while nobody does anything
 //! - `strokes`: memory at the start and after 200 strokes of the round brush
 //! - `large`: memory with a canvas of 8000 x 8000 cells
 //!
-//! Without names it measures all. The window has 1920 x 1080 points. Figures of strokes come from
+//! If you name none, it makes all. The window has 1920 x 1080 points. Figures of strokes come from
 //! the program's option `--figures`, one line a second. You need Xvfb and a graphics adapter. A
 //! software adapter shares the processor with the paint.
 
@@ -41,8 +41,8 @@ const CANVAS_MM: f64 = 192.0;
 /// Time between two positions of the mouse: 250 a second.
 const INTERVAL: Duration = Duration::from_millis(4);
 
-/// We ignore these seconds at the start and the end of a stroke, because the hand does not paint
-/// all the time.
+/// We ignore the figures of this many seconds at the start and at the end of a stroke, because the
+/// hand paints only a part of them.
 const MARGIN: f64 = 1.5;
 
 const NAMES: [&str; 5] = ["round", "flat", "idle", "strokes", "large"];
@@ -81,7 +81,8 @@ fn start<'a>(screen: &'a Screen, folder: &Path, files: &[&Path]) -> Program<'a> 
     Program::start(screen, folder, "1920x1080", files)
 }
 
-/// Prints the program's figures while the brush of a number key paints one stroke.
+/// Paints one stroke with the brush that the number key `brush` selects, for example `1`, and
+/// prints the program's performance figures of each second.
 fn speed(
     screen: &Screen,
     folder: &Path,
@@ -215,7 +216,7 @@ impl<'a> Hand<'a> {
         screen.button(false);
     }
 
-    /// Paints a straight stroke across half of the canvas. Each number has its own place.
+    /// Paints a straight stroke across half of the canvas. `number` decides where.
     fn stroke(&self, number: i32) {
         let down = 0.1 + 0.8 * f64::from(number % 50) / 50.0;
         let across = if number % 100 < 50 { 0.08 } else { 0.5 };

@@ -11,7 +11,7 @@ use paint::session::PaintingSession;
 use paint::strokes::BrushSpec;
 use pigment::library::PigmentLibrary;
 
-/// Writes a painting of 192 x 108 mm with one brush beside it: a loaded flat.
+/// Writes a painting of 192 x 108 mm with one brush: a flat of `size_mm`, loaded with paint.
 pub(crate) fn loaded_flat(path: &Path, size_mm: f64) -> Result<(), Box<dyn Error>> {
     let library = PigmentLibrary::van_gogh_oils();
     let canvas =

@@ -7,11 +7,11 @@ use std::time::Duration;
 /// Ticks of the processor time in a second, as Linux reports it on all common machines.
 const TICKS: f64 = 100.0;
 
-/// A program at rest takes a smaller share of a core than this. Its log of figures still draws a
-/// frame a second.
+/// A program is at rest if it takes a smaller share of a core than this. Even then it draws a frame
+/// a second for its performance log.
 const REST: f64 = 0.2;
 
-/// We stop waiting for rest after these seconds.
+/// We wait for rest at most this many seconds.
 const LONGEST: usize = 120;
 
 pub(crate) struct Usage {
@@ -38,7 +38,7 @@ impl Usage {
         println!("  still at work after {LONGEST} s");
     }
 
-    /// Memory in use now and at most so far, in words.
+    /// Memory in use now and at most so far, as text.
     pub(crate) fn memory(&self) -> String {
         let status = std::fs::read_to_string(self.folder.join("status")).unwrap_or_default();
         let [now, most] = ["VmRSS:", "VmHWM:"].map(|name| {
@@ -49,7 +49,7 @@ impl Usage {
         format!("{now:.0} MB, at most {most:.0} MB")
     }
 
-    /// Time of the processor so far.
+    /// Processor time so far.
     pub(crate) fn processor_seconds(&self) -> f64 {
         let stat = std::fs::read_to_string(self.folder.join("stat")).unwrap_or_default();
         // The name in brackets may contain spaces. User and system time are fields 14 and 15.

@@ -132,7 +132,7 @@ fn rows(hand: &mut Hand, mixtures: &[&str], from: f64, to: f64, slope: f64) {
     }
 }
 
-/// Half width of a pear at shares of its height, relative to its maximum.
+/// Outline of a pear: shares of its height, and its half width there as a share of the largest.
 const PEAR: [(f64, f64); 9] = [
     (0.0, 0.12),
     (0.07, 0.3),
@@ -155,7 +155,7 @@ struct Fruit {
     tall: f64,
     half_width: f64,
     outline: &'static [(f64, f64)],
-    /// Point of the outline where every other stroke begins.
+    /// Index of the point of `outline` where every other stroke begins.
     below: usize,
     /// Mixtures from the lit to the shaded side.
     mixtures: [&'static str; 7],
@@ -224,7 +224,7 @@ pub(crate) fn fruits(hand: &mut Hand) {
     }
 }
 
-/// Strokes from the top down follow the form, dark ones first.
+/// Paints the fruit in strokes from the top down along its outline, the darkest first.
 fn modelled(hand: &mut Hand, fruit: &Fruit) {
     let last = fruit.mixtures.len() - 1;
     for index in (0..=last).rev() {
@@ -243,7 +243,7 @@ fn modelled(hand: &mut Hand, fruit: &Fruit) {
     }
 }
 
-/// Paints thick lights over the dry fruits. We leave the last one to the pen that you see at work.
+/// Paints thick lights over the dry fruits, except the last one, [`AT_WORK`].
 pub(crate) fn lights(hand: &mut Hand) {
     hand.load("round", "L2 W12", 0.02, 0.8);
     hand.stroke("round", &[(31.0, 36.0), (30.3, 33.0), (31.5, 29.5)], 0.4);
@@ -260,7 +260,7 @@ pub(crate) fn lights(hand: &mut Hand) {
     }
 }
 
-/// The light on the second pear, up to the present place of the pen.
+/// The last light, on the second pear. The screenshot shows the pen while it paints this stroke.
 pub(crate) const AT_WORK: [Place; 4] = [(56.0, 16.5), (55.3, 22.0), (54.4, 27.5), (53.0, 32.5)];
 
 /// Glazes the dry study: cool in the shadows, warm on the second pear.

@@ -1,4 +1,5 @@
-//! The window of the tests, with a scene of paint volumes, marks of samples, and guides of strokes.
+//! Uses the window of the tests for screenshots: a scene of paint volumes, marks of samples, and
+//! guides of strokes.
 
 use std::error::Error;
 use std::path::Path;
@@ -34,7 +35,7 @@ pub(crate) fn wait_for(window: &mut Window, label: &str) -> Result<(), Box<dyn E
 /// Paint poured a second, in mm3.
 const RATE: f64 = 130.0;
 
-/// The pen stays for these steps at the start of a drag, and at its end.
+/// The pen rests for this many steps of time at the start of a drag, and at its end.
 const STEPS: u64 = 60;
 
 /// Drags over the village: shares of the picture's width and height.
@@ -104,12 +105,13 @@ fn wait(window: &mut Window, done: impl Fn(&Volumes) -> bool) -> Result<(), Box<
 /// Width of the reference picture in the window, in points.
 const WIDTH: f32 = 620.0;
 
-/// Width and height of the picture of the model.
+/// Width and height of the rendered picture of the model, in pixels.
 const VIEW: (usize, usize) = (900, 600);
 
 type Places = &'static [[f32; 2]];
 
-/// Lines over passages of the painted coffee, and two neighbouring strokes of each, in its pixels.
+/// Marks on the painted coffee, in its pixels. Each has a line over a piece of brushwork, and one
+/// place on each of two neighbouring strokes.
 const MARKS: [(Places, [[f32; 2]; 2]); 4] = [
     (&[[20.0, 100.0], [110.0, 50.0], [190.0, 12.0]], [[60.0, 40.0], [68.0, 54.0]]),
     (&[[370.0, 230.0], [440.0, 250.0], [510.0, 235.0]], [[430.0, 215.0], [432.0, 230.0]]),
@@ -117,7 +119,7 @@ const MARKS: [(Places, [[f32; 2]; 2]); 4] = [
     (&[[690.0, 60.0], [760.0, 120.0], [800.0, 210.0]], [[740.0, 60.0], [756.0, 54.0]]),
 ];
 
-/// Curves along the knot, in pixels of the picture.
+/// Control points of curves along the knot, in pixels of the picture.
 const GUIDES: [Places; 3] = [
     &[[520.0, 90.0], [380.0, -20.0], [130.0, 90.0], [150.0, 300.0], [320.0, 370.0]],
     &[[320.0, 250.0], [370.0, 120.0], [600.0, 120.0], [650.0, 350.0]],
@@ -177,7 +179,7 @@ fn pin(window: &mut Window, path: &Path) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Draws a line through places of a fitted picture of 900 x 600 pixels, along a smooth curve.
+/// Draws a smooth curve with these control points on the fitted picture of 900 x 600 pixels.
 fn draw(window: &mut Window, places: &[[f32; 2]]) {
     let panel = window.harness().get_by_label("Reference picture").rect();
     let zoom = (panel.width() / VIEW.0 as f32).min(panel.height() / VIEW.1 as f32);

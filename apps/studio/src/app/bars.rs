@@ -419,11 +419,12 @@ fn checked(intent: Intent, state: MenuState) -> Option<bool> {
     }
 }
 
-/// Room for the tick before a name, in spaces of the font.
+/// Spaces before a name that leave room for a tick.
 const INDENT: &str = "      ";
 
-/// Adds an entry with its shortcut. `checked` draws a tick or leaves room for one. `indented`
-/// leaves this room too, for an entry beside others with a tick.
+/// Adds an entry with its shortcut. If `checked` is set, the entry has a tick or room for one.
+/// `indented` leaves this room in an entry without a tick, so that its name stands below names with
+/// ticks.
 pub(super) fn show_item(
     ui: &mut Ui,
     name: &str,

@@ -23,14 +23,15 @@ const MARGIN: f32 = 6.0;
 
 const BELOW_TABS: f32 = 4.0;
 
-/// A panel of this height or more scrolls beside others, in points. The panel of a clean brush is
-/// higher, so that a wash does not fold the panels below it in a low window.
+/// A panel with higher contents than this may scroll beside others, in points. The panel of a clean
+/// brush is higher than this. If it were lower, washing a brush would fold the panels below it in a
+/// low window.
 const LONG: f32 = 540.0;
 
-/// Like [`LONG`], for a panel with large targets.
+/// Replaces [`LONG`] in touch mode, where panels are higher.
 const LONG_TOUCH: f32 = 930.0;
 
-/// Height that we assume before a panel was drawn, in points.
+/// We assume this height for a panel that was never drawn, in points.
 const UNKNOWN: f32 = 300.0;
 
 /// You can resize a panel down to this height, in points.
@@ -276,7 +277,7 @@ const BUTTON: f32 = 20.0;
 /// Space between the edge of a tab and its name, in points.
 const PADDING: f32 = 5.0;
 
-/// A request of a header.
+/// An action that you chose in the header of a group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum HeaderRequest {
     Select(&'static str),

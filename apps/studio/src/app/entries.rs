@@ -22,8 +22,8 @@ impl Entry {
         entries().find(|entry| entry.intent == intent)
     }
 
-    /// Text of the first key in use, e.g. `Ctrl+Shift+S`. Before you install any keys, this is the
-    /// first standard one. It is empty without a key.
+    /// Text of the entry's first key in use, e.g. `Ctrl+Shift+S`, or an empty text if it has none.
+    /// Before you install any keys, this is its first standard key.
     #[must_use]
     pub fn shortcut_text(&self, context: &Context) -> String {
         keymap::text(context, &self.intent.name())

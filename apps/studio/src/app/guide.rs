@@ -288,8 +288,8 @@ pub(super) enum Arrow {
     Down,
 }
 
-/// Draws lines on a plate, at most `width` points wide. `at` is the middle of its upper edge, or
-/// the tip of its arrow. Returns the rectangle of the plate.
+/// Draws lines of text on a plate, at most `width` points wide. `at` is the middle of the plate's
+/// upper edge, or the tip of its arrow. Returns the rectangle of the plate.
 pub(super) fn plate(
     painter: &Painter,
     at: Pos2,

@@ -76,7 +76,8 @@ impl TwinStrokes {
         self.samples.extend_from_slice(samples);
     }
 
-    /// Commands that paint the twins. `down` sets each down. A stroke without samples has none.
+    /// Commands that paint the twins, or none if the stroke has no samples. `down` makes the
+    /// command that begins each twin.
     pub(super) fn commands(&self, down: impl Fn() -> Command) -> Vec<Command> {
         if self.samples.is_empty() {
             return Vec::new();

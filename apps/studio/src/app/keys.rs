@@ -166,7 +166,8 @@ pub(super) struct KeyEditor {
 enum State {
     #[default]
     Idle,
-    /// The next key press is for this action. It replaces this key, if any.
+    /// Waits for the next key press, which becomes a key of this action. It takes the place of
+    /// `replaced` if there is one.
     Waits { name: String, replaced: Option<Shortcut> },
     /// Waits for your decision.
     Conflicts(Conflict),
@@ -180,7 +181,8 @@ impl KeyEditor {
         matches!(&self.state, State::Waits { name: own, replaced } if own == name && *replaced == key)
     }
 
-    /// Waits for a key for an action. It replaces one of its keys or is added.
+    /// Waits for a key press that becomes a key of the action `name`. The new key takes the place
+    /// of `replaced`, or is added.
     pub(super) fn record(&mut self, name: &str, replaced: Option<Shortcut>) {
         self.state = State::Waits { name: name.to_owned(), replaced };
     }
@@ -206,7 +208,8 @@ impl KeyEditor {
         }
     }
 
-    /// The key of another action, with a sentence that names both.
+    /// The key that you pressed although another action has it, with a sentence that names this
+    /// action.
     pub(super) fn conflict(&self, table: &KeyTable) -> Option<(String, Conflict)> {
         let State::Conflicts(conflict) = &self.state else { return None };
         let owner = table.owner(&conflict.pressed)?;
@@ -272,7 +275,7 @@ const KEYS: f32 = 250.0;
 
 const KEYS_TOUCH: f32 = 344.0;
 
-/// Gestures and held keys with descriptions. You cannot change these.
+/// Gestures of the pointer and keys that you hold, with descriptions. You cannot change these.
 const POINTER: &[(&str, &str)] = &[
     (english("Space + drag"), english("Moves the view; so does the middle button")),
     (english("Shift+Space + drag"), english("Rotates the view about its centre")),
@@ -335,7 +338,8 @@ pub(super) fn show(
     }
 }
 
-/// Shows workspace, search, and the way back to the standard.
+/// Shows the choice of the workspace, the search field, and the button that restores all standard
+/// keys.
 fn head(ui: &mut Ui, editor: &mut KeyEditor, table: &KeyTable, changes: &mut Changes) {
     ui.horizontal(|ui| {
         for (scope, name, tip) in [

@@ -566,8 +566,8 @@ impl Studio {
         }
     }
 
-    /// The place that a step points at and how its card is aligned there: a corner or side of the
-    /// card, and the point that it touches.
+    /// The place that a step points at, and where its card stands: the point that the card touches,
+    /// and which corner or side of the card touches it.
     fn place_of(&self, step: TourStep, context: &Context) -> Option<(Rect, Pos2, Align2)> {
         match step {
             TourStep::Load => intent::rect(context, Part::Tubes).map(above),
@@ -658,8 +658,8 @@ impl Studio {
     }
 }
 
-/// Shortest time between two frames of the whole window during such a stroke. The figures in the
-/// panels change as often.
+/// Shortest time between two frames of the whole window while [`Studio::between`] shows the stroke.
+/// The figures in the panels change as often.
 const RARE: Duration = Duration::from_millis(500);
 
 /// Used instead of [`RARE`] while the paint is behind the pen.

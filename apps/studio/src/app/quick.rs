@@ -62,8 +62,8 @@ impl QuickChoice {
     }
 }
 
-/// Choices from the inner to the outer ring: tubes, mixtures that you can load now, sizes. Mixtures
-/// are those loaded last, then those of the list.
+/// Choices from the inner to the outer ring: tubes, mixtures that you can load now, and sizes. The
+/// mixtures that you loaded last come first, then those of your list.
 pub(super) fn quick_choices(
     painting: &PaintingState,
     tools: &Tools,
@@ -199,11 +199,11 @@ const LARGEST_DOT: f32 = 19.0;
 pub(super) struct QuickPalette {
     center: Pos2,
     opened: f64,
-    /// Whether you opened it with the secondary button. You then choose by releasing this over a
-    /// wedge.
+    /// Whether you opened it with the secondary button. You then choose a wedge by releasing the
+    /// button over it.
     by_button: bool,
     choices: [Vec<QuickChoice>; 3],
-    /// Colour in the middle: the paint on the brush.
+    /// Colour of the paint on the brush, shown in the middle.
     held: Option<[u8; 3]>,
 }
 

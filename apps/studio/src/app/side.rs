@@ -59,7 +59,7 @@ const PANELS: [SidePanel; 8] = [
 ];
 
 impl SidePanel {
-    /// Whether you should see all of it, because you need it while you paint.
+    /// Whether the column shows all of this panel if it can, because you need it while you paint.
     pub(super) fn is_whole(&self) -> bool {
         self.group == 0
     }
@@ -136,11 +136,11 @@ pub struct Panels {
     pub(super) last_used: BTreeMap<Tab, u64>,
 }
 
-/// If you drop a panel on this share of a group's height at its upper or lower edge, it becomes a
-/// new group.
+/// If you drop a panel near the upper or lower edge of a group, it becomes a new group. This is how
+/// near, as a share of the group's height.
 const EDGE: f32 = 0.25;
 
-/// Largest height of this edge, in points.
+/// [`EDGE`] counts up to this height, in points.
 const LONGEST_EDGE: f32 = 48.0;
 
 #[derive(Debug, Clone, Copy)]
@@ -212,15 +212,15 @@ pub(super) fn dropped(
     None
 }
 
-/// An arrow key changes the place by this, in points.
+/// An arrow key moves the edge by this, in points.
 const STEP: f32 = 8.0;
 
-/// A line between two parts of the window.
+/// The direction of the edge between two parts of the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Line {
-    /// Between parts side by side.
+    /// The edge is vertical, between parts side by side.
     Upright,
-    /// Between parts above each other.
+    /// The edge is horizontal, between parts above each other.
     Level,
 }
 

@@ -67,7 +67,7 @@ pub struct Studio {
     pub(super) painting: Option<Arc<PaintingState>>,
     pub(super) keys: Keys,
     pub(super) keymap: Keymap,
-    /// Language and changes that the tables were made with; `None` before the first frame.
+    /// Language and changes of keys for which we made `keymap`; `None` before the first frame.
     pub(super) keymap_changes: Option<(Language, Changes)>,
     /// Faults in the key changes that we have already reported.
     pub(super) key_faults: Vec<String>,

@@ -30,10 +30,11 @@ use crate::{floating, pace, theme};
 /// Smallest height of palette and tubes, in points.
 const LOWEST_PALETTE: f32 = 150.0;
 
-/// Smallest height for touch: all tubes and the controls below them fit in.
+/// Smallest usual height of palette and tubes in touch mode, in points. All tubes and the controls
+/// below them have room.
 const TOUCH_PALETTE: f32 = 288.0;
 
-/// Largest height in points, unless you drag the edge yourself.
+/// Largest usual height of palette and tubes, in points. You can drag their edge higher.
 const HIGHEST_PALETTE: f32 = 420.0;
 
 const SHELF: f32 = 32.0;
@@ -104,7 +105,7 @@ impl Studio {
         }
     }
 
-    /// The height that the painter chose, or else a share of the window.
+    /// Height of palette and tubes: the one that the painter chose, or else a share of the window.
     fn palette_height(&self, ui: &Ui) -> f32 {
         let room = ui.available_height();
         let large = theme::is_touch(ui.ctx()) && !theme::is_narrow(ui.ctx());
@@ -437,7 +438,7 @@ impl Studio {
         let [x, y] = view.position(point)?;
         let beyond = match surface {
             SurfaceId::Canvas => x >= f64::from(self.tools.split) * view.cells().0 as f64,
-            SurfaceId::Palette => view.is_under_second(),
+            SurfaceId::Palette => view.shows_second_light(),
         };
         let second = view.picture(true).filter(|_| beyond);
         let x = x as usize;
@@ -612,7 +613,8 @@ fn lights_of(painting: &PaintingState) -> Option<[&str; 2]> {
 /// Brush used for the eraser end of a pen, if the painting has it.
 const ERASER: &str = "knife";
 
-/// Whether a command cuts the stroke that its group began.
+/// Whether the stroke of the last group is cut: a command came that is neither a part of a stroke
+/// nor a question. `cut` says this for the commands before `command`.
 fn cut_after(cut: bool, command: &Command) -> bool {
     match command {
         Command::BeginGroup => false,
@@ -684,7 +686,7 @@ fn march(painter: &Painter, [from, to]: [Pos2; 2], phase: f32) {
 
 const HANDLE: f32 = 14.0;
 
-/// A handle beyond the view is moved inside, to this distance from the edge in points.
+/// Distance from the edge of the view, in points, to which we move a handle from beyond it.
 const AIDS_EDGE: f32 = 12.0;
 
 #[derive(Debug, Clone, Copy)]
@@ -703,8 +705,8 @@ impl OnCanvas {
         self.placement.cell(point).map(|cells| cells * self.cell_mm)
     }
 
-    /// Rectangle in which you can touch a handle. If the place lies beyond the view, this is at the
-    /// edge.
+    /// Rectangle in which you can touch the handle of this place. If the place lies beyond the
+    /// view, the rectangle is at the edge.
     fn handle(&self, place: [f64; 2], size: Vec2) -> Rect {
         let room = self.view.shrink(AIDS_EDGE);
         let point = self.point(place);

@@ -185,8 +185,9 @@ impl Files {
         }
     }
 
-    /// Extensions of the files that a dialog asks for since the last call; empty if it takes all
-    /// files. A page uses this to ask with the browser's own dialog.
+    /// Removes and returns the extensions that the open dialog asks for, or `None` if no dialog was
+    /// opened since the last call. An empty list means all files. A page uses this to ask with the
+    /// browser's own dialog.
     pub fn take_wanted(&mut self) -> Option<Vec<&'static str>> {
         self.wanted.take()
     }
@@ -548,7 +549,8 @@ impl Files {
         self.scenes.answers.push_back(SceneAnswer::Recover(lost));
     }
 
-    /// Keeps the lost scene that we are opening until it is autosaved again.
+    /// Call this before a lost scene is opened. We keep its autosave until the opened scene has its
+    /// own.
     pub fn recovering_scene(&mut self, lost: LostSession) {
         self.scenes.opening = Some(lost);
     }
@@ -614,7 +616,8 @@ impl Files {
         });
     }
 
-    /// The autosave of a scene was written. It holds everything that the scene was recovered from.
+    /// Call this when an autosave of the scene was written. If the scene was recovered, this
+    /// deletes the autosave that it came from.
     pub(super) fn scene_autosaved(&mut self) {
         if let Some(lost) = self.scenes.recovered.take() {
             lost.discard();

@@ -296,8 +296,8 @@ fn hidden_beside(path: &Path) -> PathBuf {
 pub(super) struct Recorded {
     pub(super) script: Arc<StrokeScript>,
     pub(super) library: Arc<PigmentLibrary>,
-    /// Content of the file of the painting that this continues; `None` if the script names the
-    /// file.
+    /// If the recording continues a painting, the content of the painting's file. `None` if there
+    /// is none, or if the script names the file.
     pub(super) start: Option<Arc<Vec<u8>>>,
     /// Memory for undo in bytes, as in the recorded session.
     pub(super) undo_bytes: u64,
@@ -403,23 +403,23 @@ pub(super) struct SceneFiles {
     pub(super) lost: Vec<LostSession>,
     pub(super) answers: VecDeque<SceneAnswer>,
     pub(super) autosave: Arc<Mutex<Option<Autosave>>>,
-    /// Title and counter of changes of the open scene.
+    /// Title of the open scene, and the number of its changes.
     pub(super) open: Option<(String, u64)>,
-    /// The counter of changes at the last save in a file.
+    /// Number of changes when the scene was last saved in a file.
     pub(super) saved: u64,
-    /// The counter of changes in the autosave, or in the one being written.
+    /// Number of changes in the autosave, or in the one that is being written.
     pub(super) autosaved: u64,
     pub(super) last_autosave: Instant,
-    /// Whether we wait for a recording.
+    /// Whether we have asked for a recording and wait for it.
     pub(super) awaited: bool,
-    /// The scene that the open one was recovered from, until it is autosaved again.
+    /// The lost scene that we recovered the open one from, until that is autosaved again.
     pub(super) recovered: Option<LostSession>,
-    /// This scene, until the worker has opened it.
+    /// The lost scene that the worker is opening.
     pub(super) opening: Option<LostSession>,
 }
 
 impl SceneFiles {
-    /// There is no open scene. `lost` are the scenes of other programs.
+    /// Files without an open scene. `lost` are the scenes of programs that ended without saving.
     pub(super) fn new(lost: Vec<LostSession>) -> Self {
         Self {
             lost,

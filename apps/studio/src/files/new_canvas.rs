@@ -179,7 +179,7 @@ pub struct NewCanvas {
     pub canvas: Canvas,
     /// Unit that you see the size in.
     pub unit: LengthUnit,
-    /// Whether the painting uses the library and palette of the current one.
+    /// Whether the painting gets the library and palette of the current one.
     pub same_pigments: bool,
     /// A picture for the first dry layer. We paint its colours with the palette.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -296,7 +296,7 @@ pub(crate) struct Tone {
     pub(crate) name: &'static str,
     /// Pigments and use, for a tooltip.
     pub(crate) description: &'static str,
-    /// Pigments and their parts. Without any, the priming stays bare.
+    /// Pigments and their parts. If there are none, the priming stays bare.
     parts: &'static [(&'static str, f64)],
     /// Height of the film in mm.
     height_mm: f64,

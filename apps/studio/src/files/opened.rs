@@ -51,7 +51,7 @@ pub(crate) enum Opened {
         /// Remarks for the painter.
         remarks: Vec<Problem>,
     },
-    /// A picture to show beside the canvas. We decode it there.
+    /// A picture to show beside the canvas. The panel that shows it decodes it.
     Picture,
     /// The spectrum of a lamp. You can name a light after this file.
     Lamp,

@@ -15,7 +15,7 @@ use strokes::{Photograph, Picture};
 
 use super::problem::Problem;
 
-/// Steps of the table from linear light to sRGB.
+/// Number of steps of the table that converts linear light to sRGB.
 const SHADES: usize = 4096;
 
 /// A picture read from a file, reduced if it was large.
@@ -25,7 +25,7 @@ pub(crate) struct ReadPicture {
     pub(crate) linear: Picture,
     /// Width and height of the file in pixels or cells.
     pub(crate) file_size: [usize; 2],
-    /// Whether the values are scene-referred, without a white.
+    /// Whether the values are scene-referred, so that no value means white.
     pub(crate) scene_linear: bool,
 }
 

@@ -87,7 +87,7 @@ pub struct Preferences {
     pub pen: PenSettings,
     /// Whether you have seen the first steps. They do not appear by themselves again.
     pub first_steps_seen: bool,
-    /// How a pen leads single brushes, by name.
+    /// Options of single brushes for the pen, by the name of the brush.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub brush_options: BTreeMap<String, BrushOptions>,
     /// Changed keys, e.g. `Ctrl+Shift+Z`, by the name of their action.

@@ -44,7 +44,8 @@ impl Problem {
         Self { text, hint: None }
     }
 
-    /// The problem that `path` cannot be read, written and so on. `participle` is this word.
+    /// Says that something with `path` failed. `participle` completes `cannot be ..`, for example
+    /// `read`.
     pub(crate) fn io(path: &Path, participle: &str, error: &std::io::Error) -> Self {
         let text = format!("{}: cannot be {participle}: {error}", path.display());
         Self { text, hint: error.hint().as_ref().map(with_panel_names) }

@@ -34,7 +34,7 @@ use crate::language::tr;
 pub struct Files {
     pub(super) ctx: Context,
     pub(super) home: Home,
-    /// The painter's preferences. Changes are written to their file automatically.
+    /// The painter's preferences. We write changes to their file automatically.
     pub preferences: Preferences,
     pub(super) written_preferences: Preferences,
     /// Speed at which recordings are played; overrides the preferences.
@@ -67,19 +67,19 @@ pub struct Files {
     pub(super) autosaved_revision: Option<u64>,
     /// Number of recorded actions that the autosaves hold.
     pub(super) recorded: usize,
-    /// The set-up of the window, now and at the last autosave.
+    /// How the window is set up now, and how it was at the last autosave.
     pub(super) setup: WindowSetup,
     pub(super) autosaved_setup: Option<WindowSetup>,
     /// The set-up of a recovered painting, until the window takes it.
     pub(super) recovered_setup: Option<WindowSetup>,
-    /// A reference picture and the digest of its file.
+    /// File of a reference picture, and its digest.
     pub(super) reference_digest: Option<(PathBuf, Option<String>)>,
-    /// We report only the first of several failures.
+    /// Whether the last autosave failed. We report only the first of several failures.
     pub(super) autosave_failed: bool,
     pub(super) replay: Option<(usize, usize)>,
     /// Whether the sample painting is being played.
     pub(super) sample: bool,
-    /// Whether the next state is the sample painting, played to its end.
+    /// Whether the replay of the sample painting has ended, but its last state has not arrived yet.
     pub(super) sample_settles: bool,
     /// Own brushes of the painter.
     pub brush_sets: BrushSets,
@@ -89,20 +89,20 @@ pub struct Files {
     pub(super) reference: VecDeque<ReferenceChange>,
     /// Drawings on that picture that are in no file.
     pub(super) unsaved_drawings: Vec<DrawnFile>,
-    /// Mixtures that the painter keeps.
+    /// Kept mixtures of the painter.
     pub(super) swatches: SwatchList,
     pub(super) scenes: SceneFiles,
     pub(super) commands: Vec<Command>,
-    /// The window closes, although changes may be lost.
+    /// Whether the window closes, even if changes are lost.
     pub(super) closing: bool,
-    /// The window closes as soon as the painting is saved.
+    /// Whether the window closes as soon as the painting is saved.
     pub(super) closes_when_saved: bool,
     /// Sentence for the status line that we have not shown yet.
     pub(super) status: Option<StatusNote>,
 }
 
 impl Files {
-    /// Begins a session in `home` and looks for lost ones. The end of a job repaints `ctx`.
+    /// Begins a session in `home` and looks for lost ones. When a job ends, it repaints `ctx`.
     #[must_use]
     pub fn new(ctx: &Context, home: Home, preferences: Preferences) -> Self {
         let mut notices = Vec::new();
@@ -536,7 +536,7 @@ impl Files {
     }
 }
 
-/// The kept mixtures, and how many of them are in their file.
+/// The kept mixtures: as you see them, and as they are in their file.
 #[derive(Debug, Default)]
 pub(super) struct SwatchList {
     /// Mixtures as you see them.
@@ -571,34 +571,34 @@ pub(super) enum OpenDialog {
 
 #[derive(Debug)]
 pub(super) enum FilePurpose {
-    /// Opens the file.
+    /// Opens the file that you choose.
     Open,
     /// Saves the painting, keeps a revision if `keep_revision` is set, then carries out `next`.
     Save { next: Option<PendingAction>, keep_revision: bool },
-    /// Exports to the file.
+    /// Exports the painting to the file.
     Export(Export),
-    /// Writes a timelapse.
+    /// Writes a timelapse to the file.
     Timelapse(TimelapseExport),
-    /// Saves the recording.
+    /// Saves the recording in the file.
     Recording,
-    /// Pins the picture in it beside the canvas.
+    /// Pins the picture of the file beside the canvas.
     Reference,
-    /// Gives it to the canvas of a new painting.
+    /// Uses the picture of the file for the canvas of a new painting.
     Canvas(CanvasPicture),
-    /// Lights the painting with the lamp measured in it.
+    /// Lights the painting with the lamp of the file.
     Lamp,
-    /// Saves the drawing in it, then carries out `next`.
+    /// Saves the drawing in the file, then carries out `next`.
     SaveDrawing { drawing: Box<Drawing>, next: Option<PendingAction> },
-    /// Reads a drawing from it.
+    /// Reads a drawing from the file.
     OpenDrawing(DrawingKind),
-    /// Takes the brushes in it over.
+    /// Imports the brushes of the file.
     ImportBrushes,
-    /// Writes a set of brushes to it.
+    /// Writes a set of brushes to the file.
     ExportBrushes(Box<BrushSet>),
-    /// Adds the mixtures or colours in it to those that are kept.
+    /// Adds the mixtures or colours of the file to the kept ones.
     ImportSwatches,
-    /// Writes the kept mixtures to it.
+    /// Writes the kept mixtures to the file.
     ExportSwatches(SwatchFormat),
-    /// Opens or writes a file of a scene.
+    /// Opens the file as a scene, or writes a file of a scene.
     Scene(ScenePurpose),
 }

@@ -229,8 +229,8 @@ impl Files {
         });
     }
 
-    /// Takes over the brushes of a file. A set is added beside the others, a single brush to the
-    /// shown set.
+    /// Imports the brushes of a file. If it is a set, we add it to the other sets. If it is a
+    /// single brush, we add it to the shown set.
     pub(super) fn brushes_read(&mut self, path: &Path, brushes: ReadBrushes) {
         self.preferences.last_folder = path.parent().map(Path::to_owned);
         let notice = match brushes {
@@ -280,12 +280,13 @@ impl Files {
         }
     }
 
-    /// The replay has ended. You have not changed the sample painting.
+    /// Call this when the replay of a recording has ended. If it was the sample painting, its next
+    /// state counts as saved.
     pub(super) fn sample_played(&mut self) {
         self.sample_settles = std::mem::take(&mut self.sample);
     }
 
-    /// Handles the first state after the sample painting was played.
+    /// If the sample painting was just played, its present state counts as saved.
     pub(super) fn settle_sample(&mut self) {
         if std::mem::take(&mut self.sample_settles)
             && let Some(state) = self.painting.as_ref().filter(|state| !state.stroke_open)
@@ -318,8 +319,8 @@ impl Files {
         }
     }
 
-    /// Opens the painting that the dialog describes. If you chose so, it has the current palette
-    /// and library.
+    /// Opens the painting that the dialog describes. It has the current palette and library if you
+    /// chose so.
     pub(super) fn begin_new(&mut self, dialog: &NewDialog) {
         let new = dialog.new.clone();
         self.preferences.new_painting.last = new.clone();
@@ -364,8 +365,8 @@ fn write_own(path: &Path, book: &SwatchBook) -> Result<(), Problem> {
     Ok(write_whole(path, book.to_json().as_bytes())?)
 }
 
-/// Reads the list of the home folder. Without a file the list is empty. We put a file that cannot
-/// be read aside, so that it is not overwritten.
+/// Reads the list of the home folder. If there is no file, the list is empty. If the file cannot be
+/// read, we rename it, so that it is not overwritten.
 fn read_own(path: &Path) -> (SwatchBook, Option<Problem>) {
     if !disk::exists(path) {
         return (SwatchBook::default(), None);

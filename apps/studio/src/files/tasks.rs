@@ -390,7 +390,7 @@ impl Files {
         self.commands.push(Command::Apply(Action::Light(lighting)));
     }
 
-    /// Starts reading the lost session in `folder`.
+    /// Starts reading the lost session in `folder`, to recover it.
     pub(super) fn recover(&mut self, folder: &Path) {
         let mut sessions = self.lost_sessions.iter();
         let Some(at) = sessions.position(|lost| lost.folder() == folder) else { return };
@@ -600,8 +600,8 @@ impl Files {
     }
 }
 
-/// Returns the script as it will be saved in `path`. If it continues a painting, this also writes
-/// the painting as it was at the start (`start`) beside it, as `NAME.start.exr`.
+/// Returns the script as it will be saved in `path`. If the recording continues a painting, this
+/// also writes that painting (`start`) beside it, as `NAME.start.exr`.
 fn with_start_file(
     path: &Path,
     script: &StrokeScript,

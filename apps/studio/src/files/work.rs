@@ -45,10 +45,10 @@ pub(super) enum Finished {
     Read { path: PathBuf, opened: Opened },
     /// A revision was read: the painting, and the content of its file.
     RevisionRead(Box<Document>, Arc<Vec<u8>>),
-    /// A painting on a picture was begun: the painting, and the content of its file.
+    /// A painting that begins with a picture was made: the painting, and the content of its file.
     Begun(Box<Document>, Arc<Vec<u8>>),
-    /// The painting was cropped. `start` is the content of its file, and `revision` the painting's
-    /// counter of changes before.
+    /// The painting was cropped. `start` is the content of its file. `revision` is the number of
+    /// changes of the painting before.
     Cropped {
         canvas: Box<Document>,
         palette: Arc<Document>,
@@ -86,7 +86,7 @@ pub(super) enum Finished {
     DrawingRead(DrawnFile),
     /// The revisions were listed.
     Listed { epoch: u64, revisions: Vec<Revision> },
-    /// An autosave was written. `revision` is the painting's counter of changes at this time,
+    /// An autosave was written. `revision` is the number of changes of the painting at this time,
     /// `recorded` the number of actions in the saved recording.
     Autosaved {
         revision: u64,
@@ -232,7 +232,7 @@ pub struct BrushSets {
     pub sets: Vec<StoredSet>,
     /// Number of the shown set.
     pub shown: usize,
-    /// The brush that we took over last, with a note on each of its settings.
+    /// The brush that we imported last, with a note on each of its settings.
     pub imported: Option<ImportedBrush>,
     /// The sets as they are in their files.
     pub(super) written: Vec<StoredSet>,

@@ -53,7 +53,7 @@ impl Language {
     /// Every language, as listed in the preferences.
     pub const ALL: [Self; 2] = [Self::English, Self::German];
 
-    /// Name of the language in itself.
+    /// Name of the language in the language itself, e.g. `Deutsch`.
     #[must_use]
     pub fn own_name(self) -> &'static str {
         match self {
@@ -83,7 +83,7 @@ impl Language {
     }
 }
 
-/// Translations by the English texts.
+/// A table from English texts to their translations.
 pub type Table = BTreeMap<String, String>;
 
 /// The German texts. A test checks this file. Without it the window would be English.
@@ -141,8 +141,8 @@ pub fn tr(english: &str) -> &str {
         .unwrap_or_else(|| english.split_once('|').map_or(english, |(_, text)| text))
 }
 
-/// Marks an English text of a table, so that you can find all texts to translate in the sources.
-/// This returns the same text. We translate it where we show it.
+/// Marks an English text that we translate where we show it, so that you can find all texts to
+/// translate in the sources. This returns the text itself.
 #[must_use]
 pub const fn english(text: &'static str) -> &'static str {
     text
@@ -188,7 +188,7 @@ fn next(text: &str) -> Option<(&str, &str, &str)> {
     Some((before, placeholder, after))
 }
 
-/// Patterns of the labels. The first that fits counts.
+/// Patterns of the labels. A label has the first pattern that fits.
 pub const PATTERNS: [&str; 34] = [
     "stroke on the palette, {brush}",
     "stroke, {brush}",
@@ -314,7 +314,8 @@ fn value_text(name: &str, value: &str) -> String {
     }
 }
 
-/// Values of the placeholders of a pattern that fits a text. Each is as short as possible.
+/// Values of the placeholders of `pattern` in `text`, each as short as possible. `None` if the
+/// pattern does not fit.
 fn matched<'a>(pattern: &'a str, text: &'a str) -> Option<Vec<(&'a str, &'a str)>> {
     let (before, rest) = pattern.split_once('{').unwrap_or((pattern, ""));
     let mut rest = rest;

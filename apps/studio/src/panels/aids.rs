@@ -10,7 +10,7 @@ use crate::pen::{DrawingAids, GuideKind, RulerShape, SymmetryKind};
 
 const WIDTH: f32 = 330.0;
 
-/// Shapes of the ruler with their names, and what strokes do.
+/// Shapes of the ruler, with their names, and tooltips that say how strokes follow them.
 const SHAPES: [(RulerShape, &str, &str); 4] = [
     (RulerShape::Line, english("Line"), english("Strokes keep to the ruler")),
     (
@@ -26,7 +26,7 @@ const SHAPES: [(RulerShape, &str, &str); 4] = [
     ),
 ];
 
-/// Kinds of symmetry with their names, and what is painted besides a stroke.
+/// Kinds of symmetry, with their names, and tooltips that say how strokes are repeated.
 const KINDS: [(SymmetryKind, &str, &str); 4] = [
     (
         SymmetryKind::Vertical,

@@ -13,8 +13,8 @@ use session::{Command, PaintingState, Picked};
 use crate::files::FileRequest;
 use crate::view::Outline;
 
-/// A brush is full if it can take less than this height, in mm. This is the smallest load that the
-/// panel offers.
+/// A brush is full if less than this height of paint fits on it, in mm. This is the smallest load
+/// that the panel offers.
 const LEAST_LOAD_MM: f64 = 0.02;
 
 /// Number of mixtures that we remember as loaded last.
@@ -252,8 +252,8 @@ pub(super) fn keep(cx: &mut PanelContext<'_>, recipe: Recipe, vehicle: f64) {
     }
 }
 
-/// Positions on the palette, in mm, with wood all around up to `reach_mm`, row by row from the
-/// upper left.
+/// Positions on the palette, in mm, that are bare wood up to a distance of `reach_mm`. They come
+/// row by row from the upper left.
 fn candidates(painting: &PaintingState, reach_mm: f64) -> Vec<[f64; 2]> {
     let cells = painting.palette_cells;
     let reach = reach_mm / painting.cell_mm;
@@ -305,7 +305,7 @@ impl Edit {
     }
 }
 
-/// A requested value, kept until the worker reports it.
+/// A value that you chose. We show it until the worker reports it.
 #[derive(Debug, Clone)]
 pub(super) struct PendingValue<T> {
     value: Option<T>,

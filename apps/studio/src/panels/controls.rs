@@ -135,7 +135,8 @@ pub(super) fn row_height(ui: &Ui, height: f32) -> f32 {
     height.max(theme::target(ui))
 }
 
-/// Adds an empty, clickable row of a list. Draw into the rectangle of the response.
+/// Adds an empty, clickable row of a list. You draw its contents into the rectangle of the
+/// response.
 pub(super) fn row(ui: &mut Ui, height: f32, name: &str, chosen: bool) -> Response {
     let size = vec2(ui.available_width(), row_height(ui, height));
     let (_, response) = ui.allocate_exact_size(size, Sense::click());
@@ -168,7 +169,7 @@ pub(super) fn button_background(ui: &Ui, response: &Response, name: &str, chosen
     ui.painter().rect(response.rect, theme::CORNER_RADIUS, fill, edge, StrokeKind::Inside);
 }
 
-/// The part of a row between these places, in points from the left edge of the window.
+/// The part of a row between `left` and `right`, in points from the left edge of the window.
 pub(super) fn between(row: Rect, left: f32, right: f32) -> Rect {
     Rect::from_min_max(pos2(left, row.top()), pos2(right, row.bottom()))
 }
@@ -242,7 +243,7 @@ fn triangle(rect: Rect, folded: bool, color: Color32) -> Shape {
 
 const SMALLEST: f32 = 9.0;
 
-/// Space that a line of text may take above and below its rectangle, in points.
+/// Text may be higher than its rectangle by this space above and below, in points.
 const OVER: f32 = 2.0;
 
 /// Draws text within a rectangle, centred vertically. This uses one line, or as many lines as fit,
@@ -394,8 +395,8 @@ impl Highlight {
         self.moved |= down + up > 0;
     }
 
-    /// The highlighted one of `count` lines found by `search`. If you change the search, this is
-    /// the first.
+    /// Index of the highlighted line, of the `count` lines that `search` found. After you change
+    /// the search, this is the first line.
     pub(super) fn among(&mut self, search: &str, count: usize) -> usize {
         if self.search != search {
             (self.line, self.moved) = (0, true);

@@ -122,7 +122,7 @@ impl History {
     }
 }
 
-/// Text on the outline of the picture after the first `index` actions.
+/// Text about the picture after the first `index` actions: whether its outline shows a change.
 fn note(index: usize, painting: &PaintingState) -> Option<&'static str> {
     let shots = &painting.history_shots.shots;
     let before = shots.get(index.checked_sub(1)?)?.is_some();

@@ -14,7 +14,7 @@ use crate::{floating, theme};
 
 const WIDTH: f32 = 400.0;
 
-/// A request of the window. It needs more than the sets.
+/// A request of the window that the sets of brushes alone cannot fulfil.
 #[derive(Debug, Clone, PartialEq)]
 pub enum OwnBrushRequest {
     /// Takes this brush in hand.

@@ -198,7 +198,7 @@ fn grid(ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
         .show(ui, content);
 }
 
-/// If you fix the angle of a brush, it starts with this one, in degrees.
+/// Angle in degrees with which a brush starts when you fix its angle.
 const FIRST_TILT_DEG: f64 = 30.0;
 
 fn curve_presets(ui: &mut Ui, curve: &mut PressureCurve) {

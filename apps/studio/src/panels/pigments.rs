@@ -345,7 +345,7 @@ fn lines(catalogue: &Catalogue, pigment: PigmentId, scattering_per_mm: f64) -> V
 
 const EXCHANGE_WIDTH: f32 = 380.0;
 
-/// Layers in which we replace a pigment.
+/// The layers in which we replace a pigment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ExchangeScope {
     /// All layers with the pigment.

@@ -79,8 +79,8 @@ impl Swatches {
         self.chosen = Some(to);
     }
 
-    /// Requests since `before` may move or remove mixtures. This keeps the selection on the same
-    /// one.
+    /// Looks at the requests from index `before` on. If one moves a mixture, the selection moves
+    /// with it. If one removes a mixture, this clears the selection.
     fn follow(&mut self, cx: &PanelContext<'_>, before: usize) {
         for request in &cx.requests[before..] {
             let Request::File(FileRequest::Swatches(change)) = request else { continue };
@@ -250,7 +250,7 @@ fn reason(cx: &PanelContext<'_>, usable: &Usable) -> Option<String> {
     }
 }
 
-/// Place of a mixture in the list, and of its neighbours among the shown ones.
+/// Index of a mixture in the list, and of its neighbours among the mixtures that you see.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Place {
     index: usize,
@@ -359,7 +359,8 @@ fn add_tubes(ui: &mut Ui, cx: &mut PanelContext<'_>, usable: &Usable) {
     }
 }
 
-/// Colours by index of the list. We recompute them when light, library or list change.
+/// Colours of the mixtures by their index in the list. We compute them again when light, library or
+/// list change.
 #[derive(Debug, Clone, Default)]
 struct SwatchColors {
     of: Option<(Arc<PigmentLibrary>, Arc<Light>, SwatchBook)>,

@@ -27,7 +27,7 @@ const GAP: f32 = 2.0;
 /// Largest tube, as a multiple of its usual size.
 const LARGEST: f32 = 2.0;
 
-/// A tube can be wider than its height asks for by this factor.
+/// Tubes may be wider than in proportion to their height, by this factor at most.
 const WIDER: f32 = 1.4;
 
 /// Height of the name below the tubes, and of the gaps between the controls, in points.
@@ -175,7 +175,7 @@ impl Tubes {
     }
 }
 
-/// Smallest width at which you see all tubes and their controls in a panel `height` points high.
+/// Smallest width of a panel `height` points high in which you see all tubes and their controls.
 #[must_use]
 pub fn least_width(ui: &Ui, height: f32) -> f32 {
     let row = TUBE_SIZE.y + GAP;

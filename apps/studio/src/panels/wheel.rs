@@ -26,7 +26,7 @@ const REACHED: f64 = 1.0;
 /// Largest side of the plot, in points.
 const LARGEST: f32 = 420.0;
 
-/// The plot shrinks to this side, in points, so that a low panel shows all of it.
+/// The plot shrinks to this side in a low panel, in points, so that you see all of it.
 const SMALLEST: f32 = 128.0;
 
 /// State of the wheel panel.
@@ -94,7 +94,7 @@ impl Wheel {
         self.lightness = (!all).then_some(lightness);
     }
 
-    /// Draws the wheel and its legend. Click a colour to search for it.
+    /// Draws the wheel and its legend. A click on a colour starts a search for recipes.
     fn wheel(
         &mut self,
         ui: &mut Ui,
@@ -152,8 +152,8 @@ impl Wheel {
         clicked.map(|point| self.color_at(wheel, plane.place(point)))
     }
 
-    /// The colour of a place. Its lightness comes from the region or, if you see all of them, from
-    /// the mixture nearest in the plane.
+    /// The colour of a place. Its lightness comes from the shown region. If you see all
+    /// lightnesses, it comes from the mixture with the nearest a* and b*.
     fn color_at(&self, wheel: &ColorWheel, [a, b]: [f64; 2]) -> TargetColor {
         let nearest = self.lightness.or_else(|| {
             let labs = wheel.gamut.samples.iter().map(|sample| sample.color.lab);
@@ -288,8 +288,8 @@ fn frame(painter: &Painter, plane: &Plane) {
     }
 }
 
-/// Fills the region that the tubes reach and draws its outline. The colours are those of the
-/// outermost mixtures and, in the middle, of their mean lightness.
+/// Fills the region that the tubes reach, and draws its outline. It has the colours of the
+/// outermost mixtures, and in the middle a grey of their mean lightness.
 fn region(painter: &Painter, plane: &Plane, wheel: &ColorWheel, region: &Boundary) {
     let held: Vec<(Pos2, &Appearance)> = region
         .sectors
@@ -379,7 +379,7 @@ const RING: f64 = 20.0;
 pub struct Plane {
     /// Square on the screen.
     pub rect: Rect,
-    /// Chroma at the middle of its sides.
+    /// Chroma at the middle of each side.
     pub reach: f64,
 }
 

@@ -22,7 +22,8 @@ use super::transform::{PenTargets, SurfaceTransform};
 use super::web::Systems;
 
 /// A stylus counts as near for this time after its last report. The window system reports a stylus
-/// as a mouse too. While it is near we ignore these events, or it would paint twice.
+/// as a mouse too. While the stylus is near, we ignore the events of the mouse, because otherwise
+/// it would paint twice.
 const NEAR: Duration = Duration::from_millis(300);
 
 /// An event of a stylus, mouse or finger on canvas or palette.
@@ -82,11 +83,11 @@ pub struct Pen {
     systems: Systems,
     pointer: Pointer,
     pending: Vec<Report>,
-    /// Reports used in the last frame.
+    /// Reports that we used in the last frame.
     used: Vec<Report>,
     stylus_near_until: Option<Instant>,
     stroke: Option<PenStroke>,
-    /// Whether a press that began outside the surfaces is still held.
+    /// Whether a button or finger is still down that was pressed outside the surfaces.
     pressed_outside: bool,
     /// The device over the window, with its state.
     hovering: Option<(Device, PointerState)>,
@@ -360,7 +361,7 @@ fn flush(stroke: &mut PenStroke, events: &mut Vec<PenEvent>) {
     }
 }
 
-/// Millimetres of a point of the window, at the usual 96 points an inch.
+/// Millimetres per point of the window, at the usual 96 points per inch.
 const MM_PER_POINT: f64 = 25.4 / 96.0;
 
 /// Strokes that stay in the field.

@@ -158,14 +158,15 @@ impl PenStroke {
         }
     }
 
-    /// Place of the brush for the present place of the pen: behind it, and on the line of a guide.
+    /// Place of the brush for the present place of the pen. The stabiliser keeps the brush behind
+    /// the pen, and a guide keeps it on its line.
     fn follow(&mut self, handling: &Handling<'_>) -> (f64, f64) {
         let place = self.stabiliser.follow(self.position_mm());
         self.led(place, handling)
     }
 
-    /// The place on the line of a guide. When we know this line, we move the samples that waited
-    /// for it there, and turn a brush that follows its direction.
+    /// The place on the line of the guide for a place of the brush. Once we know this line, we move
+    /// the samples that waited for it there, and turn a brush that follows its direction.
     fn led(&mut self, place: (f64, f64), handling: &Handling<'_>) -> (f64, f64) {
         let waited = self.lead.is_open();
         let place = self.lead.follow(place);
@@ -393,7 +394,8 @@ impl Handling<'_> {
         measured.unwrap_or_else(|| grip.tilt_deg())
     }
 
-    /// Rotation in the window that the device measures, in degrees, if it moves the brush.
+    /// Rotation in the window that the device measures, in degrees. `None` if it measures none, or
+    /// if the settings ignore it.
     pub(super) fn measured_twist(&self, state: &PointerState) -> Option<f64> {
         match self.options.twist {
             TwistUse::AsSet => state.twist_deg.filter(|_| self.settings.pen_tilt),
@@ -402,7 +404,8 @@ impl Handling<'_> {
         }
     }
 
-    /// Rotation in the window at the start of a stroke, in degrees, if none is measured.
+    /// Rotation in the window that a brush has at the start of a stroke if none is measured, in
+    /// degrees.
     pub(super) fn first_twist(&self) -> f64 {
         match self.options.twist {
             TwistUse::Fixed(degrees) => degrees,
@@ -430,22 +433,23 @@ impl Handling<'_> {
     }
 }
 
-/// The brush turns over this length, in points: the remaining angle falls by a factor of e.
+/// Over this length, in points, a brush that turns reduces the angle still to turn by a factor of
+/// e.
 const TURNING_POINTS: f64 = 30.0;
 
 /// We average the direction of the stroke over this length, in points. Single steps of a mouse are
 /// a few whole points, so their directions jump by up to 45 degrees.
 const AVERAGED_POINTS: f64 = 20.0;
 
-/// We take the first direction of the stroke at this length, in points. If it is shorter, the
-/// direction is coarse. If it is longer, the stroke starts later.
+/// We take the first direction of the stroke after this length, in points. A shorter length would
+/// make the direction coarse, a longer one would delay the stroke.
 const START_POINTS: f64 = 8.0;
 
 /// Rotation of a brush that follows its stroke.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Heading {
     twist: f64,
-    /// Recent way of the stroke in points. Older steps weigh less.
+    /// Recent displacement of the stroke in points, right and down. Older steps weigh less.
     way: (f64, f64),
     path: f64,
     /// Whether the rotation at the start of the stroke is decided.
@@ -493,8 +497,8 @@ impl Heading {
         }
     }
 
-    /// Angle from the broad side to the line across the direction, in degrees. The broad side has
-    /// no direction, so we take it modulo 180 degrees.
+    /// Angle in degrees by which the broad side must turn to lie across the direction. We take it
+    /// modulo 180 degrees, because it does not matter which end of the broad side is where.
     fn off(&self) -> f64 {
         let across = self.way.1.atan2(self.way.0).to_degrees() + 90.0;
         (across - self.twist + 90.0).rem_euclid(180.0) - 90.0

@@ -11,7 +11,8 @@ const DECIDED_POINTS: f32 = 6.0;
 /// A finger paints after this time, even if it has not moved that far.
 const DECIDED: Duration = Duration::from_millis(70);
 
-/// Longest time over which we spread the events between two frames: the duration of a slow frame.
+/// We spread the events between two frames over this time at most. It is the duration of a slow
+/// frame.
 const FRAME: Duration = Duration::from_millis(34);
 
 #[derive(Debug, Default)]
@@ -48,9 +49,9 @@ impl Pointer {
         self.stamps.extend(stamps);
     }
 
-    /// Reports since the last frame, in order. egui's events carry no times. Those with a time from
-    /// the window system get it. The others are spread evenly between them, the last frame and
-    /// `now`.
+    /// Reports since the last frame, in order. Events of egui carry no times. If the window system
+    /// reported the time of an event, we use it. We spread the others evenly between these times,
+    /// from the last frame to `now`.
     pub(super) fn reports(&mut self, events: &[Event], now: Instant) -> Vec<Report> {
         let mut reports = Vec::new();
         self.tapped = None;
@@ -86,7 +87,7 @@ impl Pointer {
         self.tapped
     }
 
-    /// Whether we do not know yet if the finger paints or makes a gesture.
+    /// Whether we still wait to see if the finger paints or makes a gesture.
     pub(super) fn undecided(&self) -> bool {
         matches!(self.finger, Finger::Undecided { .. })
     }
@@ -192,8 +193,8 @@ impl Pointer {
     }
 }
 
-/// Whether egui made this press from the touch that follows. In a page it comes before the touch,
-/// so the finger would begin a stroke as a mouse.
+/// Whether egui made this press from the touch event that follows. In a page the press comes before
+/// the touch, so without this check the finger would begin a stroke as a mouse.
 fn is_of_touch(event: &Event, next: Option<&Event>) -> bool {
     match (event, next) {
         (

@@ -146,29 +146,30 @@ impl Script {
     }
 }
 
-/// A report of the window system belongs to an event within this distance, in points.
+/// A time from the window system belongs to an event if their places are at most this far apart, in
+/// points.
 const SAME_POINTS: f32 = 0.75;
 
-/// The event of an older report than this never came.
+/// We drop times older than this, because their events did not come.
 const OLD: Duration = Duration::from_millis(200);
 
-/// A report of the window system: where a mouse was, and when.
+/// Time of a mouse event from the window system, with the place of the mouse.
 pub(super) type Stamp = (Pos2, Instant);
 
-/// Reports of the window system without an event so far, in order.
+/// Times from the window system that wait for their events, in order.
 ///
 /// The events of the window carry no times, so we match them by their places.
 #[derive(Debug, Default)]
 pub(super) struct Stamps(VecDeque<Stamp>);
 
 impl Stamps {
-    /// Adds reports, in order.
+    /// Adds times, in order.
     pub(super) fn extend(&mut self, stamps: impl IntoIterator<Item = Stamp>) {
         self.0.extend(stamps);
     }
 
-    /// The time of the next event, which is at `place`; `None` if it was not reported. This removes
-    /// it and the reports before it.
+    /// The time of the next event, which is at `place`; `None` if we do not know it. This removes
+    /// the time and those before it.
     pub(super) fn take(&mut self, place: Pos2, now: Instant) -> Option<Instant> {
         while self.0.front().is_some_and(|stamp| now.saturating_duration_since(stamp.1) > OLD) {
             self.0.pop_front();
@@ -178,8 +179,8 @@ impl Stamps {
     }
 }
 
-/// Fills in unknown times. They are spread evenly from the time before (`from` at the start) to the
-/// next known one (`to` at the end). The result never decreases and lies in `from` to `to`.
+/// Fills in unknown times. They are spread evenly from the known time before (or `from`) to the
+/// known time after (or `to`). The times never decrease, and lie between `from` and `to`.
 pub(super) fn filled(known: &[Option<Instant>], from: Instant, to: Instant) -> Vec<Instant> {
     let mut times = Vec::with_capacity(known.len());
     let mut last = from;

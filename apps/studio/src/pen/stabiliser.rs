@@ -1,8 +1,9 @@
-//! Steadies the way of a brush. It follows the places of the pen by a rule without time:
+//! Smooths the path of a brush. The brush follows the places of the pen by a rule that ignores
+//! time:
 //!
-//! - Average: the brush is at the mean of the last length of the pen's way. Each part weighs as much
-//!   as it is long, so it does not matter how often a device reports. On a straight way the brush
-//!   stays half the length behind.
+//! - Average: the brush is at the mean of the last piece of the pen's path, which has a set length.
+//!   Each part weighs as much as it is long, so it does not matter how often a device reports. On a
+//!   straight path the brush stays half the length behind.
 //! - String: the pen pulls the brush by a string. The brush moves only while the string is taut,
 //!   towards the pen.
 //!
@@ -12,39 +13,39 @@
 //! presses more: the pressure is `FAST + (SLOW - FAST) / (1 + speed / MEDIUM)`, for example 0.70 at
 //! rest, 0.475 at 500 points per second and 0.25 at very high speed. (A point is 1/96 inch, so 500
 //! points are 132 mm.) We smooth the speed over 0.2 s and start at 500, so that every stroke begins
-//! at a moderate pressure. This pressure changes by at most the full pressure a second, because even
-//! a steady hand moves unevenly. At the start of a stroke the pressure rises from a fifth to the
-//! full value over 10 points of path or 60 ms, whichever comes first. At the end it falls to 0. We
-//! chose all constants by eye.
+//! at a moderate pressure. This pressure changes by at most the full pressure a second, because
+//! even a steady hand moves unevenly. At the start of a stroke the pressure rises from a fifth to
+//! the full value over 10 points of path or 60 ms, whichever comes first. At the end it falls to 0.
+//! We chose all constants by eye.
 
 use std::collections::VecDeque;
 
 use eframe::egui::Pos2;
 use session::brushes::StabiliserMethod;
 
-/// Steps in which a brush catches up with a pen.
+/// Number of steps in which a brush catches up with its pen.
 const CATCH_UP_STEPS: usize = 8;
 
 type Place = (f64, f64);
 
-/// The brush of one stroke behind its pen.
+/// The brush of one stroke, which stays behind its pen.
 #[derive(Debug, Clone)]
 pub(super) struct Stabiliser {
     method: StabiliserMethod,
     length_mm: f64,
-    /// Places of the pen, the last first, as far back as the mean reaches.
+    /// Places of the pen, the last first, as far back as we need them for the mean.
     way: VecDeque<Place>,
     brush: Option<Place>,
 }
 
 impl Stabiliser {
-    /// A stroke that has not begun. A length of 0 or less switches the stabiliser off.
+    /// A stabiliser for a new stroke. A length of 0 or less switches it off.
     pub(super) fn new(method: StabiliserMethod, length_mm: f64) -> Self {
         let method = if length_mm > 0.0 { method } else { StabiliserMethod::Off };
         Self { method, length_mm, way: VecDeque::new(), brush: None }
     }
 
-    /// Whether the brush is where the pen is.
+    /// Whether the stabiliser is off, so that the brush is always at the pen.
     pub(super) fn is_off(&self) -> bool {
         self.method == StabiliserMethod::Off
     }
@@ -70,8 +71,9 @@ impl Stabiliser {
         brush
     }
 
-    /// The places by which the brush catches up. The last is the place of the pen. If the brush is
-    /// there already, there are none. Afterwards the brush is where the pen is.
+    /// Returns the places through which the brush catches up with the pen. The last is the place of
+    /// the pen. If the brush is there already, there are none. After this call the brush is at the
+    /// pen.
     pub(super) fn catch_up(&mut self) -> Vec<Place> {
         let method = std::mem::take(&mut self.method);
         let (Some(brush), Some(&pen)) = (self.brush, self.way.front()) else { return Vec::new() };
@@ -92,7 +94,7 @@ impl Stabiliser {
         places
     }
 
-    /// Drops places further back than the mean reaches.
+    /// Drops places that are too far back for the mean.
     fn forget(&mut self) {
         let mut reached = 0.0;
         let mut kept = 1;
@@ -108,7 +110,7 @@ pub(super) fn distance(from: Place, to: Place) -> f64 {
     (to.0 - from.0).hypot(to.1 - from.1)
 }
 
-/// A brush on a string of this length. You pull its other end to `pen`.
+/// Place of a brush after the pen at `pen` has pulled it by a string of this length.
 fn pulled(brush: Place, pen: Place, length_mm: f64) -> Place {
     let slack = length_mm / distance(brush, pen);
     // A brush at the pen has an infinite slack.
@@ -119,8 +121,8 @@ fn pulled(brush: Place, pen: Place, length_mm: f64) -> Place {
     }
 }
 
-/// Mean of the last `length_mm` of a way, or of all of it if it is shorter. The last place comes
-/// first.
+/// Mean of the last `length_mm` of a path, or of all of it if it is shorter. In `way`, the last
+/// place comes first.
 fn mean(way: &VecDeque<Place>, length_mm: f64) -> Place {
     let Some(&pen) = way.front() else { return (0.0, 0.0) };
     let mut sum = (0.0, 0.0);

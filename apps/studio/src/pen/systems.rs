@@ -1,4 +1,5 @@
-//! Styluses of the window system: X11, Wayland or Windows, and the times of its mice.
+//! Styluses of the window system (X11, Wayland or Windows), and the times of mouse events from the
+//! window system.
 
 use eframe::CreationContext;
 use eframe::egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput};

@@ -62,7 +62,7 @@ pub struct PagePointer {
     pub arrived: Instant,
 }
 
-/// Makes reports of the pointer events of styluses.
+/// Converts the pointer events of styluses to reports.
 #[derive(Debug, Default)]
 pub struct PagePens {
     pressure: bool,
@@ -139,7 +139,8 @@ impl PagePens {
     }
 }
 
-/// A page has no styluses of its window system. It feeds their reports instead.
+/// The styluses of a page. The page passes their reports to [`Pen::feed`](super::Pen::feed), so
+/// this has none.
 #[cfg(target_arch = "wasm32")]
 #[derive(Debug, Default)]
 pub(super) struct Systems {

@@ -29,7 +29,7 @@ use super::texture::{TRIANGLES, Vertex};
 #[cfg(feature = "wgpu")]
 use wgpu::{Buffer, Device, Queue};
 
-/// How the quads of a window are drawn.
+/// The way in which the quads of a window are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Drawing {
     /// By our own shader, into pixels of this format.
@@ -40,7 +40,7 @@ pub enum Drawing {
 }
 
 impl Default for Drawing {
-    /// Used if you set none, as in tests.
+    /// Used as long as you set none, as in tests.
     #[cfg(feature = "wgpu")]
     fn default() -> Self {
         Self::OwnShader(TextureFormat::Rgba8Unorm)
@@ -56,12 +56,12 @@ fn drawing_id() -> Id {
     Id::unique("how quads are drawn")
 }
 
-/// Sets how quads are drawn. Call this before the first frame.
+/// Sets whether our own shader or egui draws the quads. Call this before the first frame.
 pub fn set_drawing(context: &Context, drawing: Drawing) {
     context.data_mut(|data| data.insert_temp(drawing_id(), drawing));
 }
 
-/// The window that quads are drawn in.
+/// The window in which quads are drawn.
 pub(super) struct QuadCanvas {
     /// The part of the window with contents, in points.
     pub(super) visible: Rect,
@@ -92,7 +92,7 @@ impl QuadCanvas {
         (length * self.density).ceil() / self.density
     }
 
-    /// Opaque quads as a shape, which draws them in order.
+    /// A shape that draws opaque quads in order.
     pub(super) fn shape(&self, quads: Vec<Quad>) -> Shape {
         match self.drawing {
             #[cfg(feature = "wgpu")]
@@ -117,10 +117,12 @@ pub(super) fn draw_quads(painter: &Painter, quads: Vec<Quad>) {
     }
 }
 
-/// For a smaller area, the change of the shader costs more than it saves, in pixels.
-const LEAST: f32 = 2500.0;
+/// Smallest area of a fill that we draw with our own shader, in pixels. For a smaller one, the
+/// switch between shaders costs more than it saves.
+const LEAST_AREA: f32 = 2500.0;
 
-/// Replaces the large opaque fills of this frame. Call this when you have drawn all of it.
+/// Draws the large opaque fills of this frame with our own shader, which is faster. Call this after
+/// you have drawn the whole frame.
 pub fn quicken(context: &Context) {
     let canvas = QuadCanvas::of(context);
     if canvas.drawing == Drawing::Egui {
@@ -147,10 +149,10 @@ fn quicken_shape(clipped: &mut ClippedShape, canvas: &QuadCanvas) {
         if seen.is_positive() { seen.area() * canvas.density * canvas.density } else { 0.0 }
     };
     let quick = match &clipped.shape {
-        Shape::Rect(rect) if is_plain(rect) && area(rect.rect) >= LEAST => {
+        Shape::Rect(rect) if is_plain(rect) && area(rect.rect) >= LEAST_AREA => {
             Some(Shape::Vec(rectangle(rect, canvas)))
         }
-        Shape::Mesh(mesh) if area(mesh.calc_bounds()) >= LEAST && is_opaque(mesh) => {
+        Shape::Mesh(mesh) if area(mesh.calc_bounds()) >= LEAST_AREA && is_opaque(mesh) => {
             Some(canvas.shape(triangles(mesh)))
         }
         _ => None,
@@ -170,7 +172,8 @@ fn is_plain(shape: &RectShape) -> bool {
         && (shape.stroke.is_empty() || shape.stroke_kind != StrokeKind::Middle)
 }
 
-/// The fill without its corners as quads. egui draws rounded corners and the outline.
+/// The shapes of a filled rectangle: its fill as quads without the corners, and the rounded corners
+/// and the outline for egui.
 fn rectangle(shape: &RectShape, canvas: &QuadCanvas) -> Vec<Shape> {
     let rect = canvas.rounded(shape.rect);
     let CornerRadius { nw, ne, sw, se } = shape.corner_radius;
@@ -253,8 +256,8 @@ fn triangles(mesh: &Mesh) -> Vec<Quad> {
         .collect()
 }
 
-/// Opaque quads as a shape that draws them in order, into pixels of this format in the part
-/// `visible` of the window, in points.
+/// A shape that draws opaque quads in order, into pixels of this format. `visible` is the part of
+/// the window with contents, in points.
 #[cfg(feature = "wgpu")]
 pub(super) fn shape(quads: Vec<Quad>, format: TextureFormat, visible: Rect) -> Shape {
     let job = DrawQuads { quads, format, vertices: OnceLock::new() };

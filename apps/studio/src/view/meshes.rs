@@ -38,7 +38,7 @@ type MeshTexture = (LazyTexture, bool);
 #[derive(Default)]
 struct MeshDrawer {
     textures: BTreeMap<TextureId, MeshTexture>,
-    /// Textures that no frame draws after the last one.
+    /// Textures that egui freed. We may drop them after the last frame.
     freed: Vec<TextureId>,
 }
 
@@ -79,7 +79,8 @@ impl MeshDrawer {
         }
     }
 
-    /// The primitives as shapes. Neighbouring meshes become one, all others stay.
+    /// The primitives as shapes. Neighbouring meshes become one shape, and all other primitives
+    /// stay as they are.
     fn replaced(
         &self,
         primitives: Vec<ClippedPrimitive>,

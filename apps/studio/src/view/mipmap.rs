@@ -11,7 +11,7 @@ use graphics::tile::Rect;
 use palette::{LinSrgb, Srgb};
 
 /// Number of entries of the table that encodes linear light. The smallest step of 8-bit sRGB, 1 /
-/// 255 / 12.92, spans 2.5 entries.
+/// 255 / 12.92, is 2.5 entries wide.
 const STEPS: usize = 8192;
 
 /// A level is the last one if no side is longer than this, in cells.
@@ -76,7 +76,7 @@ impl MipLevels {
         }
     }
 
-    /// Columns of a level, and its cells row by row.
+    /// Number of columns of a level, and its cells row by row.
     pub(super) fn cells(&self, level: usize) -> (usize, &[Color32]) {
         let MipLevel { width, pixels, .. } = &self.levels[level];
         (*width, pixels)

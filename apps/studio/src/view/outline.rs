@@ -183,7 +183,7 @@ const WIDTHS: [f32; 2] = [3.0, 1.2];
 /// The dark line. It is half transparent, so that it is soft on light paint.
 const DARK: Color32 = Color32::from_black_alpha(170);
 
-/// A head narrower than this on the screen is a ring, in points.
+/// A head narrower than this on the screen is drawn as a ring, in points.
 const SMALL: f32 = 12.0;
 
 /// Radius of that ring, and of the ends of its ticks, in points.
@@ -295,8 +295,8 @@ fn handle_end(rings: &[Ring]) -> [f32; 3] {
     [0, 1, 2].map(|part: usize| root[part] + HANDLE * half * along[part] / length)
 }
 
-/// Where the line from `root` to `end` leaves a convex outline; `None` if `end` is too near for you
-/// to see a handle.
+/// Point at which the line from `root` to `end` leaves a convex outline. `None` if `end` is so near
+/// the outline that you would not see a handle.
 fn outside(edge: &[Pos2], root: Pos2, end: Pos2) -> Option<Pos2> {
     let middle = edge.iter().fold(Vec2::ZERO, |sum, at| sum + at.to_vec2()) / edge.len() as f32;
     let is_in = |point: Pos2| {

@@ -107,7 +107,8 @@ impl Picture {
         self.uploaded
     }
 
-    /// How the picture is shown at a placement and a density in pixels per point.
+    /// Which level is shown at this placement, and how. `density` is the number of pixels per
+    /// point.
     pub(super) fn shown(&self, placement: &Placement, density: f64) -> Shown {
         let zoom = placement.scale() * density;
         // We take the level with one to two cells per pixel, or level 0.

@@ -98,7 +98,8 @@ impl Pipelines {
         Self { format, textured, flat_color, blended, layout, samplers }
     }
 
-    /// The pipelines for targets of this format. We build them when you first ask for them.
+    /// The pipelines for targets of this format, kept in `resources`. We build them when you first
+    /// ask for them.
     pub(super) fn of<'a>(
         device: &Device,
         format: TextureFormat,

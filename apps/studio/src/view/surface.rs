@@ -62,8 +62,8 @@ pub struct SurfaceView {
     density: f32,
     drag: DragMode,
     split_handle: Option<Rect>,
-    /// Whether the switch shows the whole surface under the second light.
-    pub(super) under_second: bool,
+    /// Whether the switch is set to the second light.
+    pub(super) shows_second: bool,
     pub(super) light_switch: Option<Rect>,
 }
 
@@ -82,7 +82,7 @@ impl SurfaceView {
             density: 1.0,
             drag: DragMode::None,
             split_handle: None,
-            under_second: false,
+            shows_second: false,
             light_switch: None,
         }
     }
@@ -100,7 +100,7 @@ impl SurfaceView {
         if there && self.second.is_none() {
             self.second = Some(Picture::new(self.name, self.cells()));
         } else if !there {
-            (self.second, self.under_second) = (None, false);
+            (self.second, self.shows_second) = (None, false);
         }
     }
 
@@ -192,7 +192,7 @@ impl SurfaceView {
                 self.split_line(ui, &placement, split);
             }
             (second, _) => {
-                let shown = second.as_mut().filter(|_| self.under_second);
+                let shown = second.as_mut().filter(|_| self.shows_second);
                 shown.unwrap_or(&mut self.first).draw(&painter, &placement, DrawnPart::Whole);
                 self.outline.draw_edge(&painter, &placement, self.first.cells());
             }
@@ -364,7 +364,7 @@ impl SurfaceView {
                 for (light, second) in lights.into_iter().zip([false, true]) {
                     ui.scope(|ui| {
                         ui.set_max_width(NAME_WIDTH);
-                        let chosen = self.under_second == second;
+                        let chosen = self.shows_second == second;
                         let button = Button::selectable(chosen, light).truncate().small();
                         let name = if second { tr("second") } else { tr("first") };
                         let tip = tr_format!(
@@ -374,7 +374,7 @@ impl SurfaceView {
                         );
                         let button = ui.add(button).on_hover_text(&tip);
                         if button.accessible_name(&tip).clicked() {
-                            self.under_second = second;
+                            self.shows_second = second;
                         }
                     });
                 }
@@ -383,10 +383,10 @@ impl SurfaceView {
         self.light_switch = Some(shown.response.rect);
     }
 
-    /// Whether you see the whole surface under the second light.
+    /// Whether the switch shows the whole surface under the second light.
     #[must_use]
-    pub fn is_under_second(&self) -> bool {
-        self.under_second && self.picture(true).is_some()
+    pub fn shows_second_light(&self) -> bool {
+        self.shows_second && self.picture(true).is_some()
     }
 
     /// Rectangle of the switch between the lights, if there is one.
@@ -457,13 +457,13 @@ impl Patch {
 
 struct Cells<'a> {
     size: [f32; 2],
-    /// Number of cells in a cell of this level, along each side.
+    /// Number of cells of the picture in a cell of this level, along each side.
     scale: f32,
     columns: usize,
     rows: usize,
     pixels: &'a [Color32],
     interpolate: bool,
-    /// Number of points of the window in a cell.
+    /// Number of points of the window per cell of the picture.
     points: f32,
 }
 

@@ -16,7 +16,7 @@ use studio::pen::{
 use super::harness::{Window, button};
 use super::pen::report;
 
-/// Places of a wavy stroke from a place in mm.
+/// Places of a wavy stroke, in mm. It starts at `x_mm`, `y_mm`.
 fn wavy(x_mm: f64, y_mm: f64) -> Vec<[f64; 2]> {
     (0..60)
         .map(|step: u8| {
@@ -67,7 +67,8 @@ fn last(window: &Window) -> Vec<Sample> {
     strokes(window).pop().expect("there is a stroke").samples
 }
 
-/// Places and attitudes of samples. A pen that rests for a moment has another sample there.
+/// Places and attitudes of samples, without repetitions. A pen that rests for a moment repeats its
+/// sample.
 fn ways(samples: &[Sample]) -> Vec<[f64; 6]> {
     let mut ways: Vec<[f64; 6]> = samples
         .iter()
@@ -79,7 +80,7 @@ fn ways(samples: &[Sample]) -> Vec<[f64; 6]> {
     ways
 }
 
-/// Numbers of done actions and of all actions.
+/// Number of done actions, and of all actions including undone ones.
 fn done(window: &Window) -> (usize, usize) {
     let painting = window.studio().painting().expect("a painting is open");
     (painting.history_done, painting.history.len())

@@ -365,7 +365,7 @@ fn names(window: &Window) -> Vec<String> {
     })
 }
 
-/// The sets of brushes on the disk of the home folder.
+/// The sets of brushes that are stored in the home folder.
 fn stored(window: &Window) -> Vec<BrushSet> {
     let folder = window.folder().join("brushes");
     session::brushes::folder::read_sets(&folder).0.into_iter().map(|stored| stored.set).collect()

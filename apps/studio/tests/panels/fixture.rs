@@ -87,7 +87,8 @@ pub(crate) fn painting() -> PaintingState {
     }
 }
 
-/// Pictures of all states but the last but one. Each changes a corner.
+/// Pictures of the five states of the history, except the last but one. Each action changes a small
+/// square.
 fn shots() -> HistoryShots {
     fn shot(state: usize) -> HistoryShot {
         let picture = Thumbnail {
@@ -107,7 +108,7 @@ fn shots() -> HistoryShots {
     HistoryShots { shots, bytes: 3 << 20, most_bytes: 24 << 20 }
 }
 
-/// A film in this colour that hides the ground in part.
+/// Swatch of a film in this colour that hides the ground in part.
 fn swatch([r, g, b]: [u8; 3]) -> BrushSwatch {
     let color =
         |srgb: [u8; 3], lightness| FilmColor { lab: Lab { lightness, a: 52.1, b: 38.4 }, srgb };
@@ -342,7 +343,7 @@ impl<P> PanelWindow<P> {
         requests.collect()
     }
 
-    /// Renders the panel if there is an adapter, and keeps the picture.
+    /// Renders the panel if there is an adapter, and saves the picture if we keep pictures.
     pub(crate) fn save(&mut self, name: &str) {
         if !has_adapter() {
             return;
@@ -391,7 +392,7 @@ const TUBES: [&str; 6] =
 pub(crate) struct SeenText {
     pub(crate) words: String,
     pub(crate) rect: Rect,
-    /// The part of the window that it is drawn in.
+    /// The clip rectangle in which the text is drawn.
     pub(crate) clip: Rect,
     /// Translucent if the text is disabled.
     pub(crate) color: Color32,
@@ -399,7 +400,7 @@ pub(crate) struct SeenText {
 }
 
 impl SeenText {
-    /// Whether a part of it is missing at the right or at the left.
+    /// Whether a part of the text is missing at the right or at the left.
     pub(crate) fn is_cut(&self) -> bool {
         let beyond = self.rect.left() < self.clip.left() - 1.5
             || self.rect.right() > self.clip.right() + 1.5;
@@ -413,8 +414,8 @@ impl SeenText {
             && self.clip.x_range().intersects(self.rect.x_range())
     }
 
-    /// Whether all of it is on the screen.
-    pub(crate) fn is_whole(&self) -> bool {
+    /// Whether you see all of the text: nothing is cut off or beyond its part of the window.
+    pub(crate) fn is_wholly_seen(&self) -> bool {
         self.is_seen() && !self.is_cut() && self.clip.expand(1.0).contains_rect(self.rect)
     }
 }

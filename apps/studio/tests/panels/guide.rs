@@ -146,7 +146,8 @@ fn the_sample_painting_opens_with_wet_and_dry_paint_and_nothing_to_save() {
     assert!(message.text.contains("the recording was played"), "{message:?}");
 }
 
-/// Pixels of the window that differ between two pictures, with their new colours.
+/// Hovers at `hover`. Returns the pixels within `reach` of `at` that change, as offsets from `at`
+/// with their new colours.
 fn changed(window: &mut Window, at: Pos2, reach: f32, hover: Pos2) -> Option<Vec<(Vec2, [u8; 3])>> {
     window.frame(vec![eframe::egui::Event::PointerGone]);
     window.harness().run_ok();
@@ -243,7 +244,7 @@ fn the_palette_is_shown_under_either_of_two_lights() {
     let place = window.harness().get_by_label(switch).rect().center();
     window.pen_stroke(&[place, place]);
     window.settle();
-    assert!(window.studio().palette.is_under_second(), "it is switched");
+    assert!(window.studio().palette.shows_second_light(), "it is switched");
     assert_eq!(done(&window), painted, "and nothing is painted by that");
     window.save("palette-light");
     let second = window.picture().map(|picture| window.color(&picture, at));
@@ -252,7 +253,7 @@ fn the_palette_is_shown_under_either_of_two_lights() {
     }
     window.studio_mut().ask(Command::SetSecondLight(None));
     window.settle();
-    assert!(!window.studio().palette.is_under_second(), "there is one light again");
+    assert!(!window.studio().palette.shows_second_light(), "there is one light again");
     assert!(window.harness().query_by_label(switch).is_none(), "and no switch");
     window.key(Modifiers::NONE, Key::Escape);
 }
@@ -267,7 +268,7 @@ fn add(painting: &mut PaintingState, label: &str) {
     painting.history_done += 1;
 }
 
-/// Changes a painting as the painter would.
+/// An action that changes a painting as a painter would.
 type Act<'a> = &'a dyn Fn(&mut PaintingState);
 
 #[test]

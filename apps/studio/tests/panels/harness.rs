@@ -220,7 +220,7 @@ impl Window {
         }
     }
 
-    /// Renders the window if there is an adapter, and keeps the picture.
+    /// Renders the window if there is an adapter, and saves the picture if we keep pictures.
     pub(crate) fn save(&mut self, name: &str) {
         if let Some(picture) = self.picture() {
             keep(&picture, name);

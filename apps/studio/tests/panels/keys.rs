@@ -13,7 +13,7 @@ use super::harness::Window;
 use super::look::drawn_texts;
 use super::volumes::{scene, volumes, wait};
 
-/// Clicks a chip of the window of keys and presses a key for it.
+/// Clicks the button of a key in the window of keys, and presses a key for it.
 fn press_for(window: &mut Window, chip: &str, modifiers: Modifiers, key: Key) {
     click(window, chip);
     window.key(modifiers, key);
@@ -211,12 +211,13 @@ fn tooltips_tell_the_keys_in_use() {
     }
 }
 
-/// Rectangle of the window that holds the control with this label.
+/// Rectangle of the control with this label, if there is one.
 fn shown(window: &mut Window, label: &str) -> Option<Rect> {
     window.harness().query_by_label(label).map(|node| node.rect())
 }
 
-/// A line of the table of keys, of the tubes' window, and of the exchange's.
+/// Texts that you see only while a certain window is open: the table of keys, the tubes' window,
+/// and the exchange of pigments.
 const KEYS: &str = "Alt + click";
 const TUBES: &str = "Take off";
 const EXCHANGE: &str = "exchange";

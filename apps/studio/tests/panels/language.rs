@@ -19,8 +19,9 @@ use super::harness::Window;
 use super::look::{check, cut, set_look};
 use super::volumes::scene;
 
-/// Sources whose texts are translated where they are shown: each text in them needs a
-/// translation. All other sources mark their texts with `tr`, `tr_format!` or `english`.
+/// Sources that hold English texts in tables and translate them where they show them. Each text in
+/// them needs a translation. All other sources mark their texts with `tr`, `tr_format!` or
+/// `english`.
 const TABLES: [&str; 10] = [
     "app/crop.rs",
     "app/entries.rs",
@@ -34,8 +35,8 @@ const TABLES: [&str; 10] = [
     "files/new_canvas.rs",
 ];
 
-/// The code before texts of these sources that you never see: names of widgets, labels of the
-/// history, the title and numbers.
+/// Code before the texts that you never see in these sources: for example names of widgets and
+/// labels of the history.
 const UNSEEN: [&str; 7] = [
     "Id::unique(",
     "Id::unique((",
@@ -67,8 +68,7 @@ fn sources() -> Vec<(String, String)> {
     found
 }
 
-/// Texts between quotation marks of a source, without those of its tests, each with what stands
-/// before and behind it.
+/// The string literals of a source without its tests. Each comes with the code before and after it.
 fn literals(source: &str) -> Vec<(&str, String, &str)> {
     let source = source.split("#[cfg(test)]").next().unwrap_or_default();
     let mut found = Vec::new();
@@ -91,7 +91,7 @@ fn literals(source: &str) -> Vec<(&str, String, &str)> {
     found
 }
 
-/// Place of the quotation mark that ends a text.
+/// Index of the quotation mark that ends a string literal.
 fn closing(rest: &str) -> usize {
     let mut escaped = false;
     for (at, letter) in rest.char_indices().skip(1) {

@@ -92,7 +92,7 @@ fn a_long_name_of_brush_or_pigment_is_not_cut() {
     let brush = names.iter().find(|text| text.words.contains("branches")).unwrap();
     let tube = names.iter().find(|text| text.words == "Chrome Yellow (Otero)").unwrap();
     window.save("long-names");
-    assert!(brush.is_whole() && tube.is_whole(), "{brush:#?} {tube:#?}");
+    assert!(brush.is_wholly_seen() && tube.is_wholly_seen(), "{brush:#?} {tube:#?}");
 }
 
 #[test]
@@ -120,7 +120,7 @@ fn the_brush_panel_is_whole_in_a_window_of_a_thousand_points() {
             assert_eq!(tops[0], tops[1], "a button stands alone: {look:?} in {size}");
             let names = seen(&mut window);
             let knife = names.iter().find(|text| text.words == "knife").unwrap();
-            assert!(knife.is_whole(), "{knife:?}");
+            assert!(knife.is_wholly_seen(), "{knife:?}");
         }
     }
 }
@@ -205,7 +205,7 @@ fn all_text_on_the_screen_has_a_contrast_of_seven() {
             window.save(&format!("contrast-{theme:?}-{tab:?}"));
             let shown = seen(&mut window).into_iter();
             // Disabled text is translucent.
-            for text in shown.filter(|text| text.is_whole() && text.color.is_opaque()) {
+            for text in shown.filter(|text| text.is_wholly_seen() && text.color.is_opaque()) {
                 let [red, green, blue] = background(&picture, text.rect.expand(1.0));
                 let behind = eframe::egui::Color32::from_rgb(red, green, blue);
                 let found = contrast(text.color, behind);
@@ -217,7 +217,7 @@ fn all_text_on_the_screen_has_a_contrast_of_seven() {
     }
 }
 
-/// Targets that can be smaller, with the reason.
+/// Controls that may be smaller than a finger, with the reason.
 const SMALLER: [(&str, &str); 4] = [
     ("Close window", "the window's own button; Escape and a click elsewhere close it too"),
     ("Height of ", "edges are dragged, not clicked; folding does without them"),
@@ -225,7 +225,7 @@ const SMALLER: [(&str, &str); 4] = [
     ("Target colour", "it shows a colour and does nothing when it is clicked"),
 ];
 
-/// Targets smaller than a finger.
+/// All controls that are smaller than a finger.
 pub(super) fn small(window: &mut Window) -> Vec<Target> {
     let all = targets(&window.harness().root());
     assert!(all.len() > 20, "{} targets", all.len());

@@ -26,7 +26,7 @@ use super::harness::{has_adapter, keep};
 
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Four panels side by side, and a worker.
+/// Four panels side by side, with a worker.
 struct Studio {
     worker: Worker,
     painting: Option<Arc<PaintingState>>,
@@ -129,8 +129,8 @@ impl Painter {
         self.harness.run();
     }
 
-    /// Waits until the reported painting satisfies `is`. The worker answers before it has measured
-    /// everything.
+    /// Waits until the reported painting satisfies `is`. The first report may come before the
+    /// worker has measured everything.
     #[track_caller]
     fn wait_until(
         &mut self,

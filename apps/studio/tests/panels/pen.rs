@@ -19,7 +19,7 @@ use web_time::{Duration, Instant};
 
 use super::harness::{Window, button};
 
-/// Draws a frame with this report of a pen.
+/// Draws a frame in which a pen sends this report.
 pub(crate) fn report(window: &mut Window, kind: ReportKind) {
     let report = Report { device: Device::Pen, arrived: Instant::now(), kind };
     window.studio_mut().pen.feed(report);
@@ -31,14 +31,14 @@ fn hold(window: &Window, x_mm: f64, y_mm: f64, pressure: f64) -> PointerState {
     PointerState { at, pressure: Some(pressure), tilt_deg: Some((15.0, 5.0)), twist_deg: Some(0.0) }
 }
 
-/// Plays a stroke of a loaded brush from x = 6 to 26 mm, with 200 reports per second in frames of
-/// 20 ms. Returns its end in the window.
+/// Loads the brush and plays a stroke from x = 6 to 26 mm, with 200 reports per second in frames of
+/// 20 ms. Returns the end of the stroke as a point of the window.
 fn stroke(window: &mut Window, y_mm: f64, pressure: f64) -> Pos2 {
     window.click("Load brush");
     draw(window, y_mm, pressure)
 }
 
-/// Like [`stroke`], with the tool in use.
+/// Like [`stroke`], with the tool in use and without loading the brush.
 pub(crate) fn draw(window: &mut Window, y_mm: f64, pressure: f64) -> Pos2 {
     let places = (0..60).map(|step| 6.0 + f64::from(step) / 3.0);
     let holds: Vec<PointerState> = places.map(|x_mm| hold(window, x_mm, y_mm, pressure)).collect();

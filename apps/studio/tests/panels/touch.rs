@@ -31,19 +31,20 @@ fn finger(id: u64, phase: TouchPhase, pos: Pos2) -> Vec<Event> {
     [touch(id, phase, pos)].into_iter().chain(mouse).collect()
 }
 
-/// Events of the same phase of fingers at these places.
+/// Events of fingers at these places, all in the same phase.
 fn fingers(phase: TouchPhase, places: &[Pos2]) -> Vec<Event> {
     let numbered = places.iter().zip(0..);
     numbered.flat_map(|(&place, id)| finger(id, phase, place)).collect()
 }
 
-/// Places in a row through the middle of the canvas, at these distances from it.
+/// Points of the window in a row through the middle of the canvas, at these distances from it.
 fn around(window: &Window, distances: &[f32]) -> Vec<Pos2> {
     let middle = window.point(SurfaceId::Canvas, 16.0, 10.0);
     distances.iter().map(|&distance| middle + vec2(distance, 0.0)).collect()
 }
 
-/// Taps at all places at once, within one frame, so that no slow frame makes it late.
+/// Taps with a finger at each place at once. All happens in one frame, so that a slow frame cannot
+/// make the tap too late.
 fn tap(window: &mut Window, places: &[Pos2]) {
     let whole = [TouchPhase::Start, TouchPhase::End].map(|phase| fingers(phase, places));
     window.frame(whole.concat());
@@ -108,7 +109,7 @@ fn a_second_finger_that_ends_a_stroke_undoes_nothing() {
     assert_eq!(done(&window), (3, 3), "the stroke stays, and nothing is undone");
 }
 
-/// The movement in the window for 10 mm to the right on the canvas.
+/// Displacement in the window that belongs to 10 mm to the right on the canvas.
 fn right(window: &Window) -> Vec2 {
     window.point(SurfaceId::Canvas, 21.0, 10.0) - window.point(SurfaceId::Canvas, 11.0, 10.0)
 }
@@ -156,7 +157,7 @@ fn two_fingers_move_zoom_and_turn_the_view_and_paint_nothing() {
     assert_eq!(done(&window), (2, 2), "nothing was painted or undone");
 }
 
-/// Centres and sizes of the squares in which you press the controls with labels that begin so.
+/// Rectangles of the controls with labels that contain `label`, in which you can press them.
 fn handles(window: &mut Window, label: &str) -> Vec<Rect> {
     let found = window.harness().query_all_by_label_contains(label);
     found.map(|node| node.rect()).collect()

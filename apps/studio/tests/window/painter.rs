@@ -1,5 +1,5 @@
 //! A scripted painter uses the built program. It does everything that the guides explain, and takes
-//! a picture of the screen at every station for a person to look at.
+//! a picture of the screen after each part, for a person to look at.
 //!
 //! It does everything twice: in the program on its screen, and in a twin window without a screen.
 //! The twin has the same set-up and knows where each control is.
@@ -32,7 +32,7 @@ const ESCAPE: u32 = 0xff1b;
 const F1: u32 = 0xffbe;
 const F12: u32 = 0xffc9;
 
-/// A hand at both windows.
+/// A hand that does the same in both windows.
 struct Hand<'a> {
     program: Program<'a>,
     /// The twin window. It knows where controls are.
@@ -42,7 +42,7 @@ struct Hand<'a> {
 }
 
 impl<'a> Hand<'a> {
-    /// A hand that puts its pictures into `folder`.
+    /// A hand that saves its pictures in `folder`.
     fn new(program: Program<'a>, twin: Window, folder: PathBuf) -> Self {
         std::fs::create_dir_all(&folder).unwrap();
         Self { program, twin, folder, pictures: 0 }
@@ -268,8 +268,8 @@ impl Hand<'_> {
         self.key(SHIFT, Key::P);
     }
 
-    /// Keeps an own brush with its paint.
-    fn own_brush(&mut self) {
+    /// Saves the current brush, with the paint on it, among the own brushes (button `Keep brush`).
+    fn keep_brush(&mut self) {
         self.key(SHIFT, Key::B);
         self.click("with its paint");
         self.click("Keep brush");
@@ -542,15 +542,15 @@ const SIZES: [(u16, u16); 4] = [(1280, 800), (1024, 700), (1440, 900), (1920, 10
 const THEMES: [(&str, ThemeChoice); 2] =
     [("dark", ThemeChoice::Dark), ("light", ThemeChoice::Light)];
 
-/// Goes through all stations. If you list first letters in `IMPASTO_STATIONS`, this leaves those
-/// stations out.
+/// Goes through all parts of the walk. If you set the environment variable `IMPASTO_STATIONS`, this
+/// goes only through the parts with these letters, in this order.
 fn walks(hand: &mut Hand<'_>) {
     let wanted = std::env::var("IMPASTO_STATIONS").unwrap_or_else(|_| "tpobqclrdwx".to_owned());
     for station in wanted.chars() {
         match station {
             't' => hand.tour(),
             'p' => hand.pen(),
-            'o' => hand.own_brush(),
+            'o' => hand.keep_brush(),
             'b' => hand.tools(),
             'q' => hand.quick_palette(),
             'c' => hand.colors(),

@@ -281,7 +281,8 @@ pub(crate) fn shows(program: &Program<'_>, picture: &Pixels) -> usize {
     })
 }
 
-/// The visible part of the picture, by the position that the program reports.
+/// The visible part of `picture`. The program reports the position of the canvas. `None` if the
+/// canvas is not shown at one pixel per cell.
 fn seen(program: &Program<'_>, picture: &Pixels) -> Option<Pixels> {
     let [left, top, right, bottom] = program.canvas()?;
     let whole = left.fract() == 0.0 && top.fract() == 0.0;

@@ -17,7 +17,7 @@ pub(crate) fn keep_preferences(home: &Path, preferences: &Preferences) {
 
 pub(crate) struct Program<'a> {
     pub(crate) screen: &'a Screen,
-    /// Columns and rows of the screen that the canvas view covers.
+    /// Columns and rows of the screen in which the program shows the canvas.
     pub(crate) room: (Range<usize>, Range<usize>),
     pub(crate) child: Child,
     figures: PathBuf,
@@ -75,8 +75,8 @@ impl<'a> Program<'a> {
         Ok(text.lines().map(serde_json::from_str).collect::<Result<_, _>>()?)
     }
 
-    /// Columns and rows of the screen that the fitted canvas covers, as at the start. You see only
-    /// the canvas there, at any zoom.
+    /// Columns and rows of the screen that the canvas covers at the start, when it is fitted. At
+    /// any zoom, you see nothing but the canvas there.
     fn fitted(&self) -> Option<(Range<usize>, Range<usize>)> {
         let [left, top, right, bottom] = self.canvas()?;
         let [x, y] = [(left, right), (top, bottom)]

@@ -120,7 +120,8 @@ impl Screen {
             .expect("the window takes the keyboard");
     }
 
-    /// Presses and releases the key of a keysym while you hold others.
+    /// Presses and releases the key that writes `writes`, while the keys `held` are down. All are
+    /// keysyms.
     pub(crate) fn key(&self, writes: u32, held: &[u32]) {
         let (code, shifted) = self.code(writes);
         let mut held = held.to_vec();

@@ -177,14 +177,14 @@ fn a_refused_action_ends_the_replay() {
     assert_eq!(window.snapshot().revision, before.revision, "nothing was changed");
 }
 
-/// Side of a pixel of the pictures in cells. The small canvas of 320 cells gives 160 pixels.
+/// Side of a pixel of the history's pictures, in cells. The canvas of 320 cells gives 160 pixels.
 const STEP: usize = 2;
 
 fn shots(window: &Window) -> Vec<Option<&HistoryShot>> {
     window.state().history_shots.shots.iter().map(Option::as_ref).collect()
 }
 
-/// Mean light of a pixel's cells in the picture of the window, as bytes.
+/// Mean light of the cells of a pixel, from the tiles that the window received, in 8-bit sRGB.
 fn seen(window: &Window, x: usize, y: usize) -> [u8; 3] {
     let cells = (0..STEP * STEP).map(|i| (STEP * x + i % STEP, STEP * y + i / STEP));
     let mut sum = [0.0; 3];

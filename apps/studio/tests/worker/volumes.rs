@@ -116,7 +116,7 @@ impl Client {
         self.recording.clone().unwrap()
     }
 
-    /// The picture with all samples at the present moment.
+    /// Draws the present moment with all samples.
     fn draw(&mut self) -> Arc<SceneImage> {
         self.drawn = None;
         self.ask(VolumeCommand::Draw(1, SIZE));

@@ -303,7 +303,7 @@ pub(in crate::app) enum WindowIntent {
     Preferences,
 }
 
-/// Where the paint is.
+/// How much paint you poured, took up again, and left in the tubes, as text.
 fn paint_text(state: &SceneState) -> String {
     let tally = &state.tally;
     let mut text = tr_format!("{poured_mm3} poured", poured_mm3 = cubic(tally.poured_mm3));
@@ -324,7 +324,7 @@ fn volumes_text(state: &SceneState) -> String {
     }
 }
 
-/// A volume with two digits or more.
+/// A volume as text, with two digits or more.
 fn cubic(mm3: f64) -> String {
     if mm3 >= 10.0 || mm3 == 0.0 { format!("{mm3:.0} mm3") } else { format!("{mm3:.1} mm3") }
 }

@@ -27,9 +27,9 @@ pub enum SceneIntent {
     Undo,
     /// Starts or stops time.
     Play,
-    /// Takes one step.
+    /// Simulates one step of time.
     Step,
-    /// Goes to the start.
+    /// Goes back to the start of time.
     Start,
     /// Shows the volumes, or the final picture.
     Volumes,
@@ -331,8 +331,8 @@ impl SceneEntry {
         SCENE_ENTRIES.iter().find(|entry| entry.intent == intent)
     }
 
-    /// Text of the first key in use. Before you install any keys, this is the first standard one.
-    /// It is empty without a key.
+    /// Text of the entry's first key in use, or an empty text if it has none. Before you install
+    /// any keys, this is its first standard key.
     #[must_use]
     pub fn shortcut_text(&self, context: &Context) -> String {
         keymap::text(context, &self.intent.name())

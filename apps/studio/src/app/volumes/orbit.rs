@@ -7,7 +7,7 @@ use graphics::camera::Camera;
 /// Vertical field of view in degrees.
 const FIELD_DEG: f32 = 35.0;
 
-/// Width by height of the picture that we frame a scene in.
+/// Width divided by height of the picture in which we frame a scene.
 const FRAMED_ASPECT: f32 = 4.0 / 3.0;
 
 /// A drag of one point turns the camera by this, in degrees (chosen by hand).
@@ -57,7 +57,7 @@ impl Orbit {
         self.framed = true;
     }
 
-    /// Sets the shape of the picture, width by height.
+    /// Sets the shape of the picture: its width divided by its height.
     pub fn set_aspect(&mut self, aspect: f32) {
         if aspect != self.aspect && aspect.is_finite() && aspect > 0.0 {
             self.aspect = aspect;

@@ -49,10 +49,10 @@ const NOWHERE: Camera = Camera {
     far: 10.0,
 };
 
-/// The workspace of scenes. Its worker starts with it.
+/// The workspace of scenes. It starts the worker of scenes.
 #[derive(Debug)]
 pub struct Volumes {
-    /// Tools and panels as they are set.
+    /// Tools and panels, as you set them.
     pub tools: SceneTools,
     /// The camera, as you move it.
     pub orbit: Orbit,
@@ -64,7 +64,7 @@ pub struct Volumes {
     /// Camera and size of the picture that we last sent to the worker.
     pub(super) sent_view: (Option<Camera>, [usize; 2]),
     pub(super) device: Option<Device>,
-    /// Whether the worker knows that the pointing device is down.
+    /// Whether we have told the worker that the pointing device is down.
     pub(super) pours: bool,
     /// The answer to a right click, and where you clicked.
     pub(super) here: Option<(Pos2, Option<Here>)>,
@@ -81,7 +81,7 @@ pub struct Volumes {
 }
 
 impl Volumes {
-    /// Starts the workspace. News of the worker repaint `context`.
+    /// Starts the workspace. Events of the worker repaint `context`.
     #[must_use]
     pub fn new(context: &Context) -> Self {
         let woken = context.clone();

@@ -52,7 +52,7 @@ impl Filter {
     }
 }
 
-/// Extensions of all pictures that we can read, and `others`: `ALL` together.
+/// Returns `others` and the extensions of all pictures that we can read. `ALL` is their number.
 pub(crate) const fn pictures_and<const ALL: usize>(others: &[&'static str]) -> [&'static str; ALL] {
     let mut endings = [""; ALL];
     assert!(ALL == ENDINGS.len() + others.len(), "the number of all endings");

@@ -88,7 +88,8 @@ impl Browser {
         answer
     }
 
-    /// Shows the filter by letters, the order, and the form of the files.
+    /// Shows the field that filters names, the order of the files, and the choice between list and
+    /// pictures.
     fn look_line(&mut self, ui: &mut Ui) {
         ui.horizontal(|ui| {
             let edit = theme::text_field(&mut self.typed_filter).hint_text(tr("Filter by name"));
@@ -366,7 +367,7 @@ impl Browser {
         }
     }
 
-    /// Draws the column. Click a folder to open it, or a file to choose it.
+    /// Draws the column of places. Click a folder to open it, or a file to choose it.
     pub(super) fn places_view(&mut self, ui: &mut Ui, height: f32) -> Option<Answer> {
         ui.set_width(PLACES_WIDTH);
         let mut answer = None;

@@ -15,7 +15,7 @@ use crate::language::{english, tr};
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct BrowserOptions {
     pub(crate) title: &'static str,
-    /// Whether the file will be written and not read.
+    /// Whether the dialog asks for a file to write, not one to read.
     pub(crate) saving: bool,
     /// Filters to choose from. The first is active when the dialog opens.
     pub(crate) filters: &'static [Filter],

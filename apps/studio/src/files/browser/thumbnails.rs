@@ -39,11 +39,11 @@ pub(crate) enum Thumbnail<'a> {
     Plain,
 }
 
-/// A picture that we have read, or a file without one.
+/// A file that we have read, with its picture if it has one.
 struct Known {
     stamp: Stamp,
     picture: Option<TextureHandle>,
-    /// Number of the request that last asked for it.
+    /// Number of the last request for this file.
     asked: u64,
 }
 

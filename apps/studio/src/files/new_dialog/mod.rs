@@ -287,7 +287,8 @@ impl NewDialog {
         Some(tr_format!("With one layer this needs more memory than is free now, {free}.", free))
     }
 
-    /// Draws the warning about the size. The line is always there, so that nothing moves.
+    /// Draws the warning about the size. This takes up a line even without a warning, so that
+    /// nothing moves.
     fn size_line(&self, ui: &mut Ui) {
         let text = self.size_problem().unwrap_or_default();
         ui.label(RichText::new(text).strong().color(theme::colors(ui.ctx()).strong));

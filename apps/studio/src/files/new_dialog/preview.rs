@@ -25,17 +25,17 @@ pub(super) const CELLS: [usize; 2] = [264, 200];
 pub(super) struct PreviewLight {
     pub(super) library: Arc<PigmentLibrary>,
     pub(super) lighting: Lighting,
-    /// The light for `library`. If there is none, we make it.
+    /// The light for `library`. If this is `None`, we compute it from `lighting`.
     pub(super) light: Option<Arc<Light>>,
 }
 
-/// The piece that you see, and the one being made.
+/// The lit piece of the ground that you see, and the one being made.
 #[derive(Default)]
 pub(super) struct Preview {
     pub(super) texture: Option<TextureHandle>,
     /// Why we cannot make the ground.
     pub(super) problem: Option<Problem>,
-    /// The last requested canvas, and whether its library was the painting's.
+    /// The canvas that we last asked for, and whether it used the painting's own pigments.
     asked: Option<(Canvas, bool)>,
     making: Option<Job<ColorImage>>,
 }
@@ -47,8 +47,8 @@ impl std::fmt::Debug for Preview {
 }
 
 impl Preview {
-    /// Takes the finished piece, and begins another one if the canvas has changed since. `same`
-    /// says whether to use the painting's own pigments.
+    /// Takes the finished piece. Begins another one if `canvas` or `same` have changed since.
+    /// `same` says whether to use the painting's own pigments.
     pub(super) fn update(
         &mut self,
         context: &Context,
@@ -85,8 +85,8 @@ impl Preview {
     }
 }
 
-/// A piece of the canvas from its upper left corner, a pixel a cell. For a relief from a picture
-/// this is the whole canvas.
+/// A piece of the canvas from its upper left corner, one pixel per cell. If the relief comes from a
+/// picture, this is the whole canvas.
 fn piece(canvas: &Canvas, light: &PreviewLight) -> Result<ColorImage, Problem> {
     let PreviewLight { library, lighting, light } = light;
     let light = match light {
@@ -112,7 +112,7 @@ fn piece(canvas: &Canvas, light: &PreviewLight) -> Result<ColorImage, Problem> {
     Ok(on_screen(&linear, |rgb| rgb))
 }
 
-/// The canvas that we show in place of `canvas`, of at most [`CELLS`].
+/// The canvas that we compute in place of `canvas`. It has at most [`CELLS`].
 fn part_of(canvas: &Canvas) -> Canvas {
     let mut part = canvas.clone();
     let [columns, rows] = CELLS.map(|cells| cells as f64);

@@ -268,9 +268,9 @@ impl Brushes {
         self.list.position(name).map_or(name, |at| &self.list.brushes[at].label)
     }
 
-    /// Takes a kept brush in hand. If the list has this name, it gets the kept head. If not, this
-    /// adds a new brush. The brush is washed, and loaded with the kept paint if there is any.
-    /// Returns its name in the painting.
+    /// Takes a brush of your own sets in hand. If the list has a brush of this name, that brush
+    /// gets the head of `preset`. If not, this adds a new brush. If `preset` has paint, we wash the
+    /// brush and load it with this paint. Returns the brush's name in the painting.
     pub fn take(&mut self, preset: &BrushPreset, cx: &mut PanelContext<'_>) -> String {
         self.list.synchronize(cx);
         match self.list.position(&preset.name) {

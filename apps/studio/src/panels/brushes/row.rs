@@ -22,7 +22,7 @@ const HEIGHT: f32 = 31.0;
 /// The bar is full at this height of paint, in mm.
 const FULL_MM: f64 = 1.0;
 
-/// Contents of a row. `state` is `None` until the worker has reported the brush.
+/// Contents of the row of a brush. `state` is `None` until the worker has reported the brush.
 pub(super) struct Row<'a> {
     pub(super) number: usize,
     pub(super) label: &'a str,
@@ -117,11 +117,11 @@ fn paint_bar(painter: &Painter, bar: Rect, state: &BrushState) {
     }
 }
 
-/// Names and pressures of the marks: a light touch, a middle one, and all the way down.
+/// Names and pressures of the marks that the preview shows.
 const PRESSURES: [(&str, f64); 3] =
     [(english("light"), 0.15), (english("middle"), 0.5), (english("full"), 1.0)];
 
-/// Most cells along a head. You would not see more in the preview.
+/// Number of cells along a head in the preview, at most. You would not see more.
 const FINEST: f64 = 64.0;
 
 const TIP_HEIGHT: f32 = 54.0;
@@ -148,7 +148,7 @@ impl std::fmt::Debug for TipPreview {
 }
 
 impl TipPreview {
-    /// Draws the three marks to one scale. The widest fills its field.
+    /// Draws the three marks to the same scale, as large as the space allows.
     pub(super) fn show(&mut self, ui: &mut Ui, spec: &BrushSpec) {
         if self.shown.as_ref().is_none_or(|(shown, _)| shown != spec) {
             self.shown = Some((spec.clone(), marks(ui.ctx(), spec)));

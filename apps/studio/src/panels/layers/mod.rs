@@ -226,7 +226,7 @@ fn group(ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// The chosen layers, in the order of choosing.
+/// The chosen layers, in the order in which you chose them.
 #[derive(Debug, Clone, Default)]
 struct Chosen(Vec<LayerId>);
 
@@ -262,7 +262,7 @@ impl Chosen {
     }
 }
 
-/// The row that you drag, and the rows of the frame.
+/// The layer that you drag, and the rows of all layers in this frame.
 #[derive(Debug, Clone, Default)]
 struct Order {
     dragged: Option<LayerId>,
@@ -282,8 +282,8 @@ impl Order {
         }
     }
 
-    /// Draws the line at the place of the dragged row, and moves its layer there when you release
-    /// it. Call this after all rows.
+    /// While you drag a row, draws a line where it would go, and moves its layer there when you
+    /// release it. Call this after all rows.
     fn finish(&mut self, ui: &Ui, cx: &mut PanelContext<'_>) {
         let rows = std::mem::take(&mut self.rows);
         let Some(dragged) = self.dragged else { return };
@@ -318,19 +318,20 @@ impl Order {
     }
 }
 
-/// Index of the gap between rows that is nearest to `y`. 0 is above the first.
+/// Index of the gap between rows that is nearest to `y`. 0 is the gap above the first row.
 fn gap(rows: &[(LayerId, Rect)], y: f32) -> usize {
     rows.iter().filter(|(_, row)| row.center().y < y).count()
 }
 
-/// You drop the layer of row `from` (0 is the topmost) of `count` into a gap between rows. This is
-/// its new place, counted from the lowest.
+/// New index of a layer, counted from the lowest, if you drop row `from` of `count` rows into the
+/// gap `gap`. Rows and gaps count from the top.
 fn place(count: usize, from: usize, gap: usize) -> usize {
     let row = if gap > from { gap - 1 } else { gap };
     count - 1 - row
 }
 
-/// Draws the slider. `pending` is a value that the worker has not confirmed yet.
+/// Draws the slider for the stiffness of wet paint. `pending` is a value that the worker has not
+/// confirmed yet.
 fn stiffness(ui: &mut Ui, cx: &mut PanelContext<'_>, pending: &mut PendingValue<f64>) {
     let now = ui.input(|input| input.time);
     // Recorded values have six digits, so they may differ slightly.

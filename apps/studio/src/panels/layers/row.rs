@@ -198,7 +198,7 @@ pub(super) struct Naming(Option<Edited>);
 struct Edited {
     layer: LayerId,
     text: String,
-    /// Whether we have not shown the text field yet.
+    /// Whether the text field has not been drawn yet.
     fresh: bool,
 }
 
@@ -299,7 +299,7 @@ impl Opacity {
     }
 }
 
-/// Draws a patch of each pigment's masstone.
+/// Draws a patch in the masstone of each pigment.
 pub(super) fn pigments(ui: &mut Ui, catalogue: &Catalogue, slots: &Slots) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 3.0;

@@ -116,7 +116,7 @@ fn description(name: &str) -> (Kind, &'static str) {
     }
 }
 
-/// Slider position in kelvin for a light without a colour temperature.
+/// Position of the slider for a light without a colour temperature, in kelvin.
 const USUAL_KELVIN: f64 = 6500.0;
 
 /// Controls that choose one illuminant.
@@ -125,7 +125,7 @@ pub(in crate::panels) struct IlluminantControl {
     picker: Picker,
     temperature_name: &'static str,
     temperature: Temperature,
-    /// Name and colour temperature (kelvin) of the light last shown.
+    /// Name and colour temperature (in kelvin) of the light that we showed last.
     known: (String, f64),
 }
 
@@ -375,14 +375,14 @@ fn light(kelvin: f64) -> String {
     if kelvin < DAYLIGHT_FROM { format!("{kelvin}K") } else { format!("D{kelvin}K") }
 }
 
-/// Distance of the points of a curve, in nm.
+/// Distance between the points of a curve, in nm.
 const STEP_NM: usize = 2;
 
-/// Heights of the chart in a low and in a high panel, in points.
+/// Height of the chart in a panel lower than [`ROOMY`], in points. In any other it is [`HIGH`].
 const LOW: f32 = 76.0;
 const HIGH: f32 = 120.0;
 
-/// Height from which a panel is high, in points.
+/// From this height on, a panel counts as high, in points.
 const ROOMY: f32 = 520.0;
 
 /// Draws the current light with its quadrature wavelengths, and other lights in their colours. We

@@ -34,11 +34,11 @@ pub struct LightPanel {
     first: IlluminantControl,
     second: IlluminantControl,
     previous: String,
-    /// Illuminant of the second light when it was last on.
+    /// Illuminant of the second light when you last switched that off.
     last_second: String,
     lighting: PendingValue<Lighting>,
     gloss: PendingValue<(Gloss, Gloss)>,
-    white: Option<White>,
+    white: Option<WhitePoint>,
 }
 
 impl Default for LightPanel {
@@ -116,8 +116,8 @@ impl LightPanel {
         self.adjust_both_lights(ui, cx, Edit::of(&response), lighting);
     }
 
-    /// Queues a change of `lighting`. Once the change is complete, the second light gets all of it
-    /// but the illuminant.
+    /// Queues a change of `lighting`. Once the change is complete, the second light takes it over
+    /// too, except for its illuminant.
     fn adjust_both_lights(
         &mut self,
         ui: &Ui,
@@ -160,7 +160,7 @@ impl LightPanel {
             .collect();
         power_chart(ui, light, &others);
         if !self.white.as_ref().is_some_and(|white| white.is_of(light)) {
-            self.white = Some(White::of(light));
+            self.white = Some(WhitePoint::of(light));
         }
         if let Some(white) = &self.white {
             white.show(ui);
@@ -280,7 +280,7 @@ fn observer_description(observer: Observer) -> &'static str {
 
 /// Chromaticity and correlated colour temperature of a light.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct White {
+pub(super) struct WhitePoint {
     light: Arc<Light>,
     /// CIE x, y for the light's observer.
     chromaticity: [f64; 2],
@@ -288,7 +288,7 @@ pub(super) struct White {
     temperature: Option<ColorTemperature>,
 }
 
-impl White {
+impl WhitePoint {
     pub(super) fn of(light: &Arc<Light>) -> Self {
         let white = light.quadrature.rule.white;
         let xyy = white.to_xyy(white);

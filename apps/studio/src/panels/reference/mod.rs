@@ -304,7 +304,7 @@ impl Reference {
         });
     }
 
-    /// Draws the row of a sample. Returns whether you remove it.
+    /// Draws the row of a sample. Returns whether you clicked its button that removes it.
     fn sample_row(&mut self, ui: &mut Ui, index: usize, size: [usize; 2]) -> bool {
         let mark = &self.samples.marks()[index];
         let name = mark.name.clone();
@@ -429,7 +429,7 @@ impl Reference {
         });
     }
 
-    /// Draws the row of a guide. Returns whether you remove it.
+    /// Draws the row of a guide. Returns whether you clicked its button that removes it.
     fn guide_row(&mut self, ui: &mut Ui, index: usize) -> bool {
         let line = &self.combing.combed().lines[index];
         let lengths = line.windows(2).map(|ends| {

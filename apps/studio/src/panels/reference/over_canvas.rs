@@ -111,7 +111,7 @@ impl Reference {
         }
     }
 
-    /// The place after the drags of this frame.
+    /// Place of the picture after the drags of this frame.
     fn drag(
         &self,
         ui: &Ui,
@@ -192,7 +192,8 @@ impl Reference {
         }
     }
 
-    /// You give the distance of strokes by a line from stroke to stroke, or by clicks on both.
+    /// Sets the distance between strokes. You give it by a line from one stroke to the next, or by
+    /// a click on each of the two.
     fn sketch_spacing(&mut self, drawn: Drawn, place: impl Fn(Pos2) -> [f64; 2], size: [usize; 2]) {
         let (from, to) = match drawn {
             Drawn::Line(points) => match points[..] {
@@ -335,7 +336,8 @@ fn draw_frame(painter: &Painter, ui: &Ui, corners: [Pos2; 4], turn: Pos2) {
 /// A click selects a line within this distance, in points.
 const REACH: f32 = 8.0;
 
-/// A line keeps bends above this size, in pixels of the picture and in points of the window.
+/// We drop bends of a line below this size: the larger of this in pixels of the picture and
+/// [`TOLERANCE_POINTS`] in points of the window.
 const TOLERANCE_PX: f32 = 0.5;
 const TOLERANCE_POINTS: f32 = 0.75;
 

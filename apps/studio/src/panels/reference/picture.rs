@@ -244,14 +244,14 @@ impl OverlayPlace {
         Self { center: [self.center[0] + by[0], self.center[1] + by[1]], ..self }
     }
 
-    /// Scales it about its middle. A corner is then as far from the middle as `to`.
+    /// Scales it about its middle, so that a corner is as far from the middle as `to`.
     pub(super) fn scaled_to(self, to: [f64; 2], aspect: f64) -> Self {
         let reach = (to[0] - self.center[0]).hypot(to[1] - self.center[1]);
         let width_mm = 2.0 * reach / 1.0_f64.hypot(1.0 / aspect);
         Self { width_mm: width_mm.max(LEAST_MM), ..self }
     }
 
-    /// Turns it about its middle. Its upper edge then faces `to`.
+    /// Turns it about its middle, so that its upper edge faces `to`.
     pub(super) fn turned_to(self, to: [f64; 2]) -> Self {
         let x = to[0] - self.center[0];
         let y = to[1] - self.center[1];

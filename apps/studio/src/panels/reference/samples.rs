@@ -51,7 +51,7 @@ impl SampleMarks {
         self.check(size);
     }
 
-    /// Sets the two places of the selected sample that are one stroke apart.
+    /// Sets the spacing of the selected sample: two places that are one stroke apart.
     pub(super) fn set_spacing(&mut self, places: [[f64; 2]; 2], size: [usize; 2]) {
         let selected = self.selected;
         self.marks.change(|marks| {
@@ -297,7 +297,7 @@ impl Combing {
     }
 }
 
-/// Places are rounded to this part of a pixel.
+/// We round places to multiples of this, in pixels.
 const ROUNDED_TO: f64 = 0.1;
 
 /// The part of a traced line before it first leaves a picture of this width and height, in pixels.
@@ -319,7 +319,7 @@ pub(super) fn traced(points: &[[f64; 2]], size: [usize; 2], tolerance: f64) -> V
     line
 }
 
-/// Points of a line between entering and leaving a rectangle of this size.
+/// Points of the first piece of a line inside a rectangle of this size.
 fn first_piece(points: &[[f64; 2]], most: [f64; 2]) -> Vec<[f64; 2]> {
     let mut piece: Vec<[f64; 2]> = Vec::new();
     for ends in points.windows(2) {
@@ -364,9 +364,9 @@ fn inside(from: [f64; 2], to: [f64; 2], most: [f64; 2]) -> Option<[[f64; 2]; 2]>
     (first <= last).then_some([start, if last == 1.0 { to } else { end }])
 }
 
-/// The ends of a line, and each point between that is farther than `tolerance` from the line
-/// without it (Douglas and Peucker, "Algorithms for the reduction of the number of points required
-/// to represent a digitized line", 1973).
+/// A simplified line: its ends, and each point between them that would otherwise be farther than
+/// `tolerance` from the line (Douglas and Peucker, "Algorithms for the reduction of the number of
+/// points required to represent a digitized line", 1973).
 fn simplified(points: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
     let Some(last) = points.len().checked_sub(1) else { return Vec::new() };
     let mut kept = vec![false; points.len()];

@@ -34,9 +34,9 @@ pub struct Reference {
     pub(super) combing: Combing,
     /// Lines that we show once the picture is read.
     pub(super) restoring: Vec<DrawnFile>,
-    /// Whether the pointer marks the distance of strokes, not a sample.
+    /// Whether the pointer marks the distance between strokes rather than a sample.
     pub(super) spacing: bool,
-    /// The first of two places for a distance of strokes.
+    /// The first of the two clicks that give the distance between strokes.
     pub(super) first_place: Option<[f64; 2]>,
     pub(super) line: PointerLine,
     /// Index and new name of a sample while you type it.
@@ -97,7 +97,7 @@ impl Reference {
         *self = Self { radius: self.radius, ..Self::default() };
     }
 
-    /// Whether a picture is shown, being read, or failed to be read.
+    /// Whether there is a picture. It may be shown, or still being read, or we could not read it.
     #[must_use]
     pub fn is_open(&self) -> bool {
         self.path.is_some()
@@ -353,7 +353,7 @@ impl Overlay<'_> {
         self.lines(&[points.to_vec()], color, true);
     }
 
-    /// Draws a distance of strokes: a line with a bar across each end.
+    /// Draws the distance between two strokes: a line with a bar across each end.
     pub(super) fn spacing(&self, [from, to]: [Pos2; 2], color: Color32) {
         let across = BAR * (to - from).normalized().rot90();
         let [first, last] = [from, to].map(|end| vec![end - across, end + across]);

@@ -15,7 +15,7 @@ use crate::files::SceneExport;
 use crate::keymap::hint;
 use crate::language::{tr, tr_format};
 use crate::panels::controls::{button, row_height};
-use crate::panels::light::{IlluminantControl, White, power_chart};
+use crate::panels::light::{IlluminantControl, WhitePoint, power_chart};
 use crate::panels::pigments::{CatalogueCache, PigmentList};
 use crate::{floating, theme};
 
@@ -329,7 +329,7 @@ impl TubeChooser {
 #[derive(Debug)]
 pub struct SceneIlluminant {
     control: IlluminantControl,
-    white: Option<White>,
+    white: Option<WhitePoint>,
 }
 
 impl Default for SceneIlluminant {
@@ -339,8 +339,8 @@ impl Default for SceneIlluminant {
 }
 
 impl SceneIlluminant {
-    /// Draws the choice of the illuminant, its power and its white. Returns the light that you
-    /// chose.
+    /// Draws the choice of the illuminant, its spectral power and its white point. Returns the name
+    /// of the light that you chose.
     pub(super) fn show(&mut self, ui: &mut Ui, state: &SceneState) -> Option<String> {
         ui.label(tr("Light on pigments")).on_hover_text(tr(
             "Light on the pigments of glazes and of the exported painting; the subject's own \
@@ -353,7 +353,7 @@ impl SceneIlluminant {
             preview.into_iter().map(|other| (other, theme::colors(ui.ctx()).strong)).collect();
         power_chart(ui, light, &others);
         if !self.white.as_ref().is_some_and(|white| white.is_of(light)) {
-            self.white = Some(White::of(light));
+            self.white = Some(WhitePoint::of(light));
         }
         if let Some(white) = &self.white {
             white.show(ui);

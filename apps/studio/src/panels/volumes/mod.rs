@@ -100,7 +100,8 @@ fn tabs(ui: &mut Ui, chosen: &mut SceneTab) {
 
 const ROW: usize = 3;
 
-/// Draws the choice of the picture, the hatching, and what volumes show inside.
+/// Draws the controls of the tab View: which picture you see, what the volumes show inside, and
+/// whether there is hatching.
 fn show_view(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     let look = cx.state.look;
     ui.label(tr("Picture"));
@@ -286,7 +287,7 @@ fn numbers(ui: &mut Ui, here: &Here) {
 
 const SIZE: f32 = 128.0;
 
-/// Share of the light that comes from all sides, as the control shows it.
+/// Share of the light that comes from all sides, for the shading of the control.
 const AMBIENT: f64 = 0.1;
 
 fn show_light(ui: &mut Ui, cx: &mut SceneContext<'_>) {
@@ -433,7 +434,7 @@ fn show_tubes(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     }
 }
 
-/// A button, its tip, and the request that it makes.
+/// A button, its tooltip, and the request that it makes.
 type Line = (&'static str, &'static str, SceneFileRequest);
 
 const LINES: [Line; 5] = [

@@ -29,7 +29,7 @@ pub enum Guide {
 }
 
 impl Guide {
-    /// The line or ellipse of a stroke that starts at `start`. For perspective it depends on the
+    /// The line or ellipse that leads a stroke from `start`. With perspective it depends on the
     /// direction to `to` too. `None` if there is none.
     fn course(&self, start: Place, to: Place) -> Option<Course> {
         match self {
@@ -109,7 +109,7 @@ impl DrawingAids {
         self.perspective = Perspective::in_middle_of(self.canvas_mm, count);
     }
 
-    /// Lines of all aids that you see.
+    /// Lines that show the visible aids.
     #[must_use]
     pub fn lines(&self) -> AidLines {
         let mut lines = AidLines::default();
@@ -130,7 +130,7 @@ impl DrawingAids {
         lines
     }
 
-    /// Handles of all aids that you see.
+    /// Handles of the visible aids.
     #[must_use]
     pub fn handles(&self) -> Vec<AidHandle> {
         let mut handles = match (self.guide, self.ruler.shape) {
@@ -198,7 +198,7 @@ impl DrawingAids {
         }
     }
 
-    /// Distance of a place from the line of the ellipse's half axis.
+    /// Distance of a place from the axis through the middle of the ellipse and its tip.
     fn half_width(&self, to: Place) -> f64 {
         let axis = unit(way(self.ruler.middle, self.ruler.tip)).unwrap_or([1.0, 0.0]);
         dot(across(axis), way(self.ruler.middle, to)).abs()
@@ -228,8 +228,8 @@ enum State {
 }
 
 impl Lead {
-    /// The lead of a stroke that has not begun. With perspective, we choose the line once the pen
-    /// is `decided_mm` away from the start.
+    /// The lead of a new stroke. With perspective, we choose the line once the pen is `decided_mm`
+    /// away from the start.
     pub(super) fn new(guide: Option<Guide>, decided_mm: f64) -> Self {
         Self {
             state: guide.map_or(State::Free, |guide| State::Undecided {
@@ -254,8 +254,8 @@ impl Lead {
         self.last
     }
 
-    /// The place of the stroke for a place of the brush. While the line is undecided, both are the
-    /// same.
+    /// Leads the brush: returns the place of the stroke for a place of the brush. While the line is
+    /// undecided, both are the same.
     pub(super) fn follow(&mut self, place: Spot) -> Spot {
         self.decide(place);
         let led = self.led(place);
@@ -263,7 +263,7 @@ impl Lead {
         led
     }
 
-    /// Like [`Lead::follow`], but without moving there.
+    /// Like [`Lead::follow`], but this only asks and changes nothing.
     pub(super) fn led(&self, place: Spot) -> Spot {
         match &self.state {
             State::Along(course) => course.led(place.into()).into(),
@@ -294,7 +294,8 @@ impl Lead {
 /// Number of lines of the fan of one vanishing point.
 const FAN: usize = 16;
 
-/// Number of parallel lines beside a ruler, and of ellipses around and in one, on each side.
+/// Number of parallel lines on each side of a straight ruler. An ellipse has as many ellipses of
+/// the same form inside, and as many outside.
 const BESIDE: i8 = 3;
 
 /// Number of pieces of an ellipse.
@@ -347,8 +348,8 @@ impl Perspective {
     }
 }
 
-/// Lines from a vanishing point over a canvas. They lie at even angles between the corners, or all
-/// around if the point is on the canvas.
+/// Lines from a vanishing point over a canvas, at equal angles. If the point is on the canvas, they
+/// go in all directions.
 fn fan(point: Place, [width, height]: Place) -> Vec<Vec<Place>> {
     let corners = [[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]];
     let far = corners.map(|corner| length(way(point, corner))).into_iter().fold(0.0, f64::max);

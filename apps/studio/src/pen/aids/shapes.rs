@@ -30,7 +30,7 @@ pub(super) fn length([right, down]: Place) -> f64 {
     right.hypot(down)
 }
 
-/// The direction as a movement of length 1; `None` for a movement of length 0.
+/// A movement of length 1 in the same direction; `None` for a movement of length 0.
 pub(super) fn unit(of: Place) -> Option<Place> {
     let length = length(of);
     (length > 1e-9).then(|| of.map(|part| part / length))
@@ -65,8 +65,9 @@ pub(super) enum Course {
 }
 
 impl Course {
-    /// The place on the course for a place of the pen. On a line this is the nearest one. On an
-    /// ellipse it lies in the same direction from the middle, which is the nearest one on a circle.
+    /// The place on the line or ellipse for a place of the pen. On a line this is the nearest
+    /// place. On an ellipse it lies in the same direction from the middle. On a circle this is the
+    /// nearest place too.
     pub(super) fn led(&self, place: Place) -> Place {
         match *self {
             Self::Line { at, along } => moved(at, along, dot(way(at, place), along)),
@@ -80,7 +81,7 @@ impl Course {
     }
 }
 
-/// A place in an ellipse, as shares of the half axes.
+/// A place relative to the middle of an ellipse, in half axes.
 pub(super) fn shares(middle: Place, axes: [Place; 2], place: Place) -> Place {
     axes.map(|axis| dot(way(middle, place), axis) / dot(axis, axis))
 }
@@ -161,8 +162,8 @@ impl Ruler {
 
 const MOST: usize = 3;
 
-/// A vanishing point in homogeneous coordinates: right and down in mm, and 1. At infinity it is a
-/// direction and 0, and all lines towards it are parallel.
+/// A vanishing point in homogeneous coordinates: its place (right and down in mm) and 1, or for a
+/// point at infinity a direction and 0. All lines towards such a point are parallel.
 type Vanishing = [f64; 3];
 
 /// A perspective guide. Positions are in mm from the upper left corner of the canvas, and may lie

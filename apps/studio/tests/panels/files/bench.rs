@@ -63,7 +63,7 @@ pub(super) fn opened(document: Document) -> Painting {
     Painting::open(document, engine, 1 << 24).unwrap()
 }
 
-/// A brush with a cell of wet paint and a clean one.
+/// Two brushes: one with a cell of wet paint, and a clean one.
 fn brushes(canvas: &Document) -> Vec<KeptBrush> {
     let mut paint = Layer::empty(7, 5);
     let used = canvas.slots.iter().position(Option::is_some).unwrap();
@@ -121,9 +121,9 @@ pub(super) struct Bench {
     pub(super) painting: Arc<PaintingState>,
     events: Vec<Event>,
     requests: Vec<FileRequest>,
-    /// Start of the recording, if it is not a blank canvas.
+    /// The recording so far, if it does not start with a blank canvas.
     pub(super) recorded: Option<StrokeScript>,
-    /// Whether answers with a snapshot wait until you release them.
+    /// Whether answers with a snapshot wait until you clear this.
     pub(super) holds_snapshots: bool,
     /// Commands received, except requests for documents.
     pub(super) commands: Vec<Command>,

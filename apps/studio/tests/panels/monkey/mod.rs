@@ -363,7 +363,7 @@ impl Monkey {
 
 type Quanta = [i128; SLOTS + 1];
 
-/// All wet paint of a session: canvas, palette and brushes.
+/// Totals of all wet paint of a session: on canvas, palette and brushes.
 fn wet(session: &mut PaintingSession) -> Quanta {
     let mut all = Vec::new();
     for surface in SurfaceId::ALL {

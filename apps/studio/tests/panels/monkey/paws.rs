@@ -114,7 +114,7 @@ impl Monkey {
         self.window.frame(vec![Event::ModifiersChanged(Modifiers::NONE)]);
     }
 
-    /// Panics if something failed that was not refused rightly.
+    /// Panics if a thread has panicked, or if a message reports a failure that is not a refusal.
     pub(super) fn check(&mut self) {
         let panics = PANICS.load(Ordering::Relaxed) - self.panics;
         assert_eq!(panics, 0, "a thread panicked");
@@ -175,7 +175,7 @@ impl Dice {
     }
 }
 
-/// Parts of these messages.
+/// Parts of messages that refuse an action rightly.
 const REFUSALS: [&str; 17] = [
     "is too high for more",
     "is piled as high as it can be",
@@ -199,7 +199,7 @@ const REFUSALS: [&str; 17] = [
     "format takes \"paint-volumes\"",
 ];
 
-/// Whether a message is a refusal.
+/// Whether a message refuses an action rightly.
 pub(super) fn is_refusal(message: &str) -> bool {
     REFUSALS.iter().any(|part| message.contains(part))
 }

@@ -71,7 +71,7 @@ fn in_color(window: &Window) -> Pos2 {
     at(window, (x as f32 + 0.5) / width as f32, (y as f32 + 0.5) / height as f32)
 }
 
-/// Holds the pen down until colour has come, moves it, and lifts it.
+/// Holds the pen down until the picture shows colour, moves the pen, and lifts it.
 pub(super) fn pour(window: &mut Window) {
     let from = at(window, 0.5, 0.55);
     window.frame(vec![Event::PointerMoved(from)]);
@@ -87,7 +87,7 @@ pub(super) fn pour(window: &mut Window) {
     });
 }
 
-/// Stops time and waits for the picture with all pixels and samples.
+/// Stops time and waits for the final picture, with all pixels and samples.
 pub(super) fn rest(window: &mut Window) {
     if volumes(window).state().unwrap().time.playing {
         window.key(Modifiers::NONE, Key::P);
