@@ -26,7 +26,7 @@ impl Backend {
 
     /// An engine without paint on a ground with the heights `floor`. Each engine has a device of
     /// its own. If no device has enough memory for the canvas, this uses the processor from now on.
-    /// It also returns the reason if a device was chosen or present.
+    /// If a device was chosen or is present, but this uses the processor, you also get the reason.
     pub(super) fn engine(&mut self, floor: &Field<i32>) -> (PaintEngine, Option<String>) {
         let opened = PaintEngine::open(self.choice, floor).unwrap_or_else(|error| OpenedEngine {
             engine: PaintEngine::on_cpu(floor.clone()),

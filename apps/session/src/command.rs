@@ -30,7 +30,7 @@ pub enum Pace {
     AsPainted,
 }
 
-/// The start of a painting.
+/// The source of a painting that you open.
 #[derive(Debug, Clone)]
 pub enum Origin {
     /// A canvas without paint as the header of a script describes it. The actions are not played.
@@ -46,7 +46,7 @@ pub enum Origin {
     WithTable {
         /// Document of the canvas.
         canvas: Box<Document>,
-        /// Palette and brushes as they were left.
+        /// Palette and brushes as they were saved.
         table: Box<SideTable>,
     },
     /// Canvas and palette recovered from an autosave.
@@ -97,7 +97,7 @@ pub enum Command {
     PenUp,
     /// Begins a group: its strokes are one step of undo and redo.
     BeginGroup,
-    /// Ends a group. If anything but strokes was done in it, they are not grouped.
+    /// Ends a group. If you did anything but strokes since it began, nothing is grouped.
     EndGroup,
     /// Applies an action. This finishes an open stroke first.
     Apply(Action),
@@ -147,7 +147,7 @@ pub enum Command {
     },
     /// Ends a replay.
     Cancel,
-    /// Loads a brush with the mean wet paint that was picked, and keeps what it already holds.
+    /// Loads a brush with the mean wet paint that was picked. Paint already on the brush stays.
     LoadPicked {
         /// Name of the brush.
         brush: String,

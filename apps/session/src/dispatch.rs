@@ -120,7 +120,7 @@ impl WorkerLoop<'_> {
                 }
                 open.reporter.tool_ended(&brush);
             } else if open.reporter.is_dirty_after_stroke(session, &brush)?
-                && !std::mem::replace(&mut self.dirty_told, true)
+                && !std::mem::replace(&mut self.dirty_reported, true)
             {
                 (self.send)(Event::DirtyBrush(brush));
             }
@@ -407,7 +407,7 @@ pub(super) struct Place {
     pub(super) radius_mm: f64,
 }
 
-/// Mean reflectance and paint of the cells within `place`. `painting` must be the one on
+/// Mean reflectance and paint of the cells in the circle `place`. `painting` must be the one on
 /// `place.surface`. Returns `None` if the centre is outside the surface.
 pub(super) fn pick(painting: &mut Painting, place: Place) -> Result<Option<Picked>, PaintingError> {
     let cell_mm = painting.cell_mm();

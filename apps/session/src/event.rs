@@ -44,8 +44,8 @@ pub struct Picked {
     pub x_mm: f64,
     /// Distance from the upper edge in mm.
     pub y_mm: f64,
-    /// Mean reflectance on the grid of the library as an instrument would measure it, without
-    /// relief and gloss.
+    /// Mean reflectance at the wavelengths of the library, as an instrument would measure it
+    /// without relief and gloss.
     pub reflectance: Vec<f64>,
     /// Dry layers from the lowest, then the wet layer.
     pub layers: Vec<PickedLayer>,
@@ -73,7 +73,7 @@ pub struct KeptPainting {
     /// Canvas and palette.
     pub snapshot: Snapshot,
     /// The recording from the action that you asked for. This is `None` if nothing is recorded, or
-    /// if samples of a replayed stroke still wait.
+    /// if samples of a replayed stroke still wait to be painted.
     pub recording: Option<RecordingTail>,
     /// All heads, with the paint on them.
     pub brushes: Vec<KeptHead>,
@@ -139,7 +139,7 @@ pub enum Event {
     },
 }
 
-/// The head over the canvas, to be drawn.
+/// Shape of a brush's head over the canvas, for drawing it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeadOnCanvas {
     /// Surface that the head is over.

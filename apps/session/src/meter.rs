@@ -17,7 +17,8 @@ const SPAN: Duration = Duration::from_secs(1);
 /// only between slices.
 const SLICE: Duration = Duration::from_millis(8);
 
-/// If more painting time than this waits, the paint is behind. This is three frames of 50 ms.
+/// If the waiting sub-steps take longer than this to paint, the paint is behind the pen. This is
+/// three frames of 50 ms.
 const BEHIND_MS: f64 = 150.0;
 
 /// Measures painting speed and the latency of samples.
@@ -87,8 +88,8 @@ impl Meter {
     }
 }
 
-/// Message after a stroke of `tool` that took `taken`, with advice or the parts of the paint in
-/// mm3. The pigments of `canvas` are in the slots of both surfaces.
+/// Says how much paint a stroke of `tool` took off. The hint lists the volume of each pigment in
+/// mm3, or gives advice if there was no paint. Both surfaces have the pigments of `canvas`.
 pub(super) fn stroke_message(
     tool: StrokeTool,
     taken: &TakenPaint,

@@ -19,8 +19,8 @@ use super::state::{HistoryShot, HistoryShots, LayerState, Thumbnail};
 /// Longer side of the small picture in pixels, for canvases of up to `LONGEST * TILE` cells.
 const LONGEST: usize = 240;
 
-/// A small picture of the canvas. Each pixel is the mean of a square of cells. Also notes which
-/// tiles changed since.
+/// A small picture of the canvas. Each pixel is the mean of a square of cells. This also notes
+/// which tiles changed since you last read the picture.
 #[derive(Debug, Clone)]
 pub(super) struct Miniature {
     bounds: Rect,
@@ -252,13 +252,13 @@ fn size(bounds: Rect) -> (usize, usize) {
     (width, height)
 }
 
-/// Memory of all pictures together.
+/// Most memory that all pictures together may take, in bytes.
 const MOST_BYTES: usize = 24 << 20;
 
 /// Pictures of the canvas. Each is known by the number of the state that it shows.
 #[derive(Debug, Clone)]
 pub(super) struct Shots {
-    /// Numbers of the states that can be reached.
+    /// Numbers of the states that undo and redo can reach.
     order: Vec<u64>,
     taken: BTreeMap<u64, HistoryShot>,
     most_bytes: usize,
@@ -271,8 +271,8 @@ impl Default for Shots {
 }
 
 impl Shots {
-    /// Takes the numbers of the states that you can reach now, starting with the first. They rise.
-    /// Drops the pictures of all other states.
+    /// Sets the numbers of the states that undo and redo can reach now, in increasing order. Drops
+    /// the pictures of all other states.
     pub(super) fn follow(&mut self, numbers: &[u64]) {
         self.order.clear();
         self.order.extend_from_slice(numbers);

@@ -141,7 +141,7 @@ impl WorkerLoop<'_> {
         // Some samples of the open stroke were added already: paint them.
         self.lift()?;
         (self.send)(playing.progress_now());
-        let unwritten = match playing.unsaved {
+        let unwritten = match playing.skipped_saves {
             0 => String::new(),
             1 => "; 1 file that it saves was not written".to_owned(),
             files => format!("; {files} files that it saves were not written"),

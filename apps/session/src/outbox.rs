@@ -1,5 +1,5 @@
-//! Sends pictures to the front end, never more than it receives, and measures the latency of
-//! samples.
+//! Sends pictures to the front end in parts, never more than it receives, and measures the latency
+//! of samples.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -44,7 +44,8 @@ struct UnsentTiles {
 }
 
 impl UnsentTiles {
-    /// Renders what changed. These tiles must be sent, and read again for the small picture.
+    /// Renders the tiles that changed. Notes that they must be sent, and read again for the small
+    /// picture.
     fn refresh(
         &mut self,
         painting: &mut Painting,
@@ -149,7 +150,7 @@ impl Outbox {
         (self.unconfirmed < MOST_UNCONFIRMED).then_some(self.next)
     }
 
-    /// Sends the head, which counts as a part.
+    /// Sends the shape of the head. It counts as one part that is not confirmed yet.
     pub(super) fn send_head(&mut self, head: HeadOnCanvas, send: &dyn Fn(Event)) {
         send(Event::Head(Some(Arc::new(head))));
         self.unconfirmed += 1;

@@ -25,7 +25,7 @@ use super::command::{Command, Origin};
 pub(super) struct PreparedPainting {
     pub(super) session: PaintingSession,
     pub(super) library: Arc<PigmentLibrary>,
-    /// Reflectance of the ground on the grid of the library.
+    /// Reflectance of the ground at the wavelengths of the library.
     pub(super) ground: Arc<Vec<f64>>,
     pub(super) remarks: Vec<String>,
 }
@@ -136,7 +136,7 @@ fn continue_from(canvas: &Document) -> StrokeScript {
     script
 }
 
-/// How a session begins on its surfaces.
+/// How a session begins: with a new recording, or as the continuation of a saved session.
 enum Beginning<'a> {
     Recorded(&'a StrokeScript),
     Kept(Box<KeptSession>),

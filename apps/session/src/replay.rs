@@ -30,8 +30,8 @@ pub(super) struct Replay {
     added: usize,
     /// When the first sample of the open stroke was due.
     start: Instant,
-    /// Save actions so far. A replay skips them.
-    pub(super) unsaved: usize,
+    /// Number of save actions so far. A replay skips these.
+    pub(super) skipped_saves: usize,
     progress_due: Instant,
 }
 
@@ -46,7 +46,7 @@ pub(super) enum Step {
 impl Replay {
     pub(super) fn new(script: StrokeScript, pace: Pace) -> Self {
         let now = Instant::now();
-        Self { script, pace, next: 0, added: 0, start: now, unsaved: 0, progress_due: now }
+        Self { script, pace, next: 0, added: 0, start: now, skipped_saves: 0, progress_due: now }
     }
 
     /// Index and key of the current action, e.g. `action 3 (stroke)`.
@@ -76,7 +76,7 @@ impl Replay {
                 (self.added, self.start) = (0, Instant::now());
                 return Ok(Step::Paint);
             }
-            Action::Save { .. } => self.unsaved += 1,
+            Action::Save { .. } => self.skipped_saves += 1,
             action => {
                 session.apply(action)?;
             }

@@ -75,7 +75,8 @@ impl Reporter {
         self.clean.remove(name);
     }
 
-    /// Forgets the load of a brush that was used as a tool, because its head was clean meanwhile.
+    /// Forgets the load of a brush that was used as a tool, because its head was clean during this
+    /// stroke.
     pub(super) fn tool_ended(&mut self, name: &str) {
         self.brushes.remove(name);
     }
@@ -463,7 +464,7 @@ fn state_of(mask: &Mask) -> MaskState {
 /// Ground and reference white for films of a painting.
 #[derive(Debug, Clone)]
 pub(super) struct FilmSetting {
-    /// Measured reflectance of the ground on the grid of the library.
+    /// Measured reflectance of the ground at the wavelengths of the library.
     pub(super) ground: Arc<Vec<f64>>,
     /// S of the reference white per mm.
     pub(super) scattering_per_mm: f64,

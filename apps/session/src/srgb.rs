@@ -21,7 +21,7 @@ pub(super) struct SrgbBytes {
 }
 
 impl SrgbBytes {
-    /// Takes about 0.1 ms.
+    /// Builds the tables. This takes about 0.1 ms.
     pub(super) fn new() -> Self {
         let mut least = [f32::INFINITY; 257];
         for (byte, least) in least.iter_mut().enumerate().take(256) {

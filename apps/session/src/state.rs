@@ -165,7 +165,7 @@ pub struct PaintingState {
     pub second_lighting: Option<Lighting>,
     /// Scattering per mm, stiffness and gloss of the binder.
     pub medium: Medium,
-    /// Reflectance of the ground on the grid of the library.
+    /// Reflectance of the ground at the wavelengths of the library.
     pub ground_reflectance: Arc<Vec<f64>>,
     /// Labels of the actions of the history, the oldest first. The actions from `history_done` on
     /// were undone.

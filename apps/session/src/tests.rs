@@ -15,8 +15,8 @@ use web_time::Instant;
 
 use super::{Command, Event, PenSample, Wait, Worker, WorkerOptions, blank_canvas};
 
-/// Events of a worker. A batch may go beyond the event that a test waits for. The next wait looks
-/// at the rest.
+/// Events of a worker. A batch may go beyond the event that a test waits for. The next [`wait`]
+/// then looks at the rest of the batch.
 #[derive(Default)]
 struct Events {
     seen: Vec<Event>,

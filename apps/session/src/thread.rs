@@ -1,6 +1,6 @@
-//! Where the work of a session is done. The front end talks to a [`Worker`]. It works on a thread,
-//! which we wait for when its owner is dropped, or in the turns that a front end gives. A page has
-//! no threads, so other work runs there between its frames.
+//! Runs the work of a session. The front end holds a [`Worker`]. This works on a thread of its own,
+//! or in the turns that the front end gives it. If you drop a worker, it waits for its thread to
+//! end. A page in a browser has no threads, so it does other work between its frames.
 
 use std::cell::RefCell;
 use std::fmt;
@@ -124,7 +124,8 @@ fn report_panic(send: &dyn Fn(Event), work: impl FnOnce()) {
     });
 }
 
-/// Longest wait. Reading a file may take longer, but nobody waits that long for a window to close.
+/// Longest time to wait for a thread to end. Reading a file may take longer, but nobody waits that
+/// long for a window to close.
 const LONGEST: Duration = Duration::from_secs(5);
 
 const LOOK: Duration = Duration::from_millis(1);

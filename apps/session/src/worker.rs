@@ -54,7 +54,7 @@ pub(super) struct WorkerLoop<'a> {
     performance_sent: Option<Instant>,
     performance: Performance,
     /// Whether the front end knows of a dirty brush.
-    pub(super) dirty_told: bool,
+    pub(super) dirty_reported: bool,
     head_shown: bool,
     /// The count of changes when we last checked whether the history needs a picture.
     pub(super) shot_revision: Option<u64>,
@@ -104,7 +104,7 @@ impl<'a> WorkerLoop<'a> {
             state_due: now,
             performance_sent: None,
             performance: Performance::default(),
-            dirty_told: false,
+            dirty_reported: false,
             head_shown: false,
             shot_revision: None,
             shot_due: now,

@@ -18,7 +18,8 @@ use graphics::surface::{
 
 const SIZE: (usize, usize) = (750, 570);
 
-/// The still life with balls of about 320 faces, evenly over its vertices.
+/// The still life with balls of about 320 faces each, centred on vertices spread evenly over its
+/// list of vertices.
 struct Scene {
     mesh: Mesh,
     camera: Camera,

@@ -38,7 +38,7 @@ impl Camera {
     }
 
     /// Matrix from model coordinates to clip coordinates as WebGPU defines them: x right, y
-    /// up, z from 0 (near) to w (far). `aspect` is width by height.
+    /// up, z from 0 (near) to w (far). `aspect` is width divided by height.
     #[must_use]
     pub fn clip_from_model(&self, aspect: f32) -> Mat4 {
         let view = look_at_mat4(self.eye, self.target, self.up);
@@ -46,8 +46,9 @@ impl Camera {
         perspective(field, aspect, self.near, self.far) * view
     }
 
-    /// Like [`Self::clip_from_model`], but without a far plane. Multiply this depth by
-    /// [`Self::depth_scale`] to get the depth of this camera. It is above 1 beyond the far plane.
+    /// Like [`Self::clip_from_model`], but without a far plane. Multiply the depth that this matrix
+    /// gives by [`Self::depth_scale`] to get the depth of this camera. The product is above 1
+    /// beyond the far plane.
     #[must_use]
     pub fn endless_clip_from_model(&self, aspect: f32) -> Mat4 {
         let view = look_at_mat4(self.eye, self.target, self.up);
@@ -75,7 +76,7 @@ pub struct Framing {
     pub elevation_deg: f32,
     /// Vertical field of view in degrees, above 0 and below 180.
     pub field_of_view_deg: f32,
-    /// Width of the picture by its height, above 0.
+    /// Width of the picture divided by its height, above 0.
     pub aspect: f32,
 }
 
@@ -204,8 +205,9 @@ impl Framing {
     }
 }
 
-/// Extent of points in a picture. Each axis has two numbers: the maximum of coordinate plus edge
-/// tangent times depth towards the viewer, and the same for the negated coordinate.
+/// How far points reach in a picture. For an axis these are the maxima of `t z + x` and `t z - x`
+/// over all points, where x is the coordinate along the axis, z is the depth towards the viewer,
+/// and t is the tangent of the angle to the picture's edge.
 #[derive(Debug, Clone, Copy)]
 struct Reach {
     right: [f32; 2],
@@ -265,8 +267,8 @@ impl Camera {
 
 const VIEW_DEG: f32 = 25.0;
 
-/// The cameras of a picture. The longer side of the picture is 1 unit. It lies in the plane z = 0
-/// around the origin, and its relief extends to both sides of this plane.
+/// Places cameras that look at a picture. The picture lies in the plane z = 0 around the origin,
+/// and its relief extends to both sides of this plane. Its longer side is 1 unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PictureView {
     sides: Vec2,

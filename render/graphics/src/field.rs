@@ -119,8 +119,8 @@ impl<T> std::ops::IndexMut<(usize, usize)> for Field<T> {
     }
 }
 
-/// Rises from 0 at the first limit and below to 1 at the second and above, with slope 0 at both.
-/// If you put the greater limit first, it falls.
+/// A smooth step: 0 up to `low`, 1 from `high` on, and in between a cubic with slope 0 at both. If
+/// you pass a greater `low` than `high`, it falls.
 #[must_use]
 pub fn smoothstep<T>([low, high]: [T; 2], value: T) -> T
 where

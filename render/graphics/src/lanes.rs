@@ -27,7 +27,7 @@ pub fn vectorized<W: WithSimd>(work: W) -> W::Output {
     }
 }
 
-/// Name of the vector instructions that [`vectorized`] uses. `None` on a machine without.
+/// Name of the vector instructions that [`vectorized`] uses. `None` on a machine without them.
 #[must_use]
 pub fn vector_instructions() -> Option<&'static str> {
     if cfg!(target_arch = "wasm32") {

@@ -76,8 +76,8 @@ impl TileSet {
         set
     }
 
-    /// The tiles of a canvas of `bounds` that contain a cell for which `has` is true. You get the
-    /// index of a cell in `has`, counted row by row.
+    /// The tiles of a canvas of `bounds` that contain a cell for which `has` is true. This passes
+    /// `has` the index of a cell, counted row by row.
     #[must_use]
     pub fn with(bounds: Rect, has: impl Fn(usize) -> bool) -> Self {
         Self {

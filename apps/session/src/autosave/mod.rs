@@ -1,9 +1,10 @@
 //! Saves the work every few seconds, so that you lose only the seconds since the last autosave when
 //! the program is killed.
 //!
-//! Each session has a folder with one complete generation. A new generation is written under a
-//! hidden name, flushed to the disk and renamed, and the previous one is removed only then. So the
-//! folder always holds a complete generation after the first autosave, and the newest one counts.
+//! A generation is the set of files that one autosave writes. Each session has a folder with one
+//! complete generation. A new generation is written under a hidden name, flushed to the disk and
+//! renamed, and the previous one is removed only then. So the folder always holds a complete
+//! generation after the first autosave, and the newest one counts.
 //! The recording lies beside the generations in a file that only grows. The program keeps the file
 //! `lock` locked while it runs. The system unlocks that file however the program ends, so other
 //! programs can see whether the session still runs.
@@ -47,7 +48,7 @@ pub struct SessionMeta {
     pub path: Option<PathBuf>,
     /// Time of the autosave, in seconds since 1970.
     pub seconds: u64,
-    /// Anything else that the front end wants to find again.
+    /// Any further data that the front end wants to get back, e.g. the set-up of its window.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub desk: Option<serde_json::Value>,
 }
@@ -64,7 +65,7 @@ pub struct Autosave {
     folder: PathBuf,
     _lock: SessionLock,
     generation: u64,
-    /// How messages call the autosave.
+    /// Name of the autosave in messages.
     title: String,
     recording: RecordingFile,
     palette: Option<Arc<Document>>,
@@ -116,11 +117,11 @@ impl Autosave {
         &self.folder
     }
 
-    /// Writes a generation and removes the previous ones. If the recording continues a painting
-    /// that was saved, pass the content of that file as `start`. Returns how many actions of the
-    /// recording are saved now: your next `painting` may start there. If the end of the recording
-    /// in `painting` does not follow the saved part, this generation has no recording, and you get
-    /// 0.
+    /// Saves `painting` as a new generation and removes the previous ones. If the recording
+    /// continues a painting that was saved, pass the content of that file as `start`. Returns how
+    /// many actions of the recording are saved now. Your next `painting` needs only the actions
+    /// after these. If the actions in `painting` do not follow the saved ones, this generation has
+    /// no recording, and you get 0.
     ///
     /// # Errors
     /// [`FileFailure`]. The previous generation stays.
@@ -165,7 +166,7 @@ impl Autosave {
         Ok(kept)
     }
 
-    /// Writes a generation that is the script of a scene, and removes the previous ones.
+    /// Saves the script of a scene as a new generation, and removes the previous ones.
     ///
     /// # Errors
     /// [`FileFailure`]. The previous generation stays.
@@ -241,7 +242,7 @@ impl Autosave {
     }
 }
 
-/// How messages call an autosave, because the painter does not know its folder.
+/// Name of an autosave in messages, because the painter does not know its folder.
 fn title_of(meta: &SessionMeta) -> String {
     format!("the autosave of {}", meta.title)
 }

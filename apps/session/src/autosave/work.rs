@@ -182,7 +182,7 @@ pub(super) fn mask_of(width: usize, height: usize, bytes: &[u8]) -> Option<Mask>
 
 const NAME: &str = "recording-";
 
-/// Prefix for the paintings that recordings continue.
+/// Prefix of the names of files with paintings that recordings continue.
 const START: &str = "start-";
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -219,9 +219,9 @@ impl RecordingFile {
         self.now.as_ref().map_or(0, |written| written.actions)
     }
 
-    /// Appends the end of a recording to its file in `folder`. If it starts with the first action,
-    /// this begins another file and saves the painting that the recording continues beside it.
-    /// Returns `None` if the end does not follow what was written before.
+    /// Appends new actions of a recording to its file in `folder`. If `tail` starts with the first
+    /// action, this begins another file, and saves the painting that the recording continues in
+    /// the same folder. Returns `None` if `tail` does not follow the actions written before.
     pub(super) fn append(
         &mut self,
         folder: &Path,
@@ -274,7 +274,7 @@ impl RecordingFile {
         Ok(name)
     }
 
-    /// Forgets the recording. Its files are removed together with older ones.
+    /// Forgets the recording, and removes the files of all recordings.
     pub(super) fn clear(&mut self, folder: &Path) -> std::io::Result<()> {
         self.now = None;
         remove_others(folder, &[])

@@ -44,7 +44,7 @@ pub fn read_sets(folder: &Path) -> (Vec<StoredSet>, Vec<FileFailure>) {
 /// Reads a set of brushes from its file.
 ///
 /// # Errors
-/// [`FileFailure`] if the file cannot be read, or with the key that is wrong.
+/// [`FileFailure`] if the file cannot be read, or if a key is wrong, which the message then names.
 pub fn read_set(path: &Path) -> Result<BrushSet, FileFailure> {
     let text = read_text(path)?;
     BrushSet::of_json(&text, &path.display().to_string())

@@ -4,10 +4,10 @@
 //! | MyPaint | here |
 //! | --- | --- |
 //! | `radius_logarithmic` | size in mm: the diameter at half pressure, where a pixel is [`MM_PER_PIXEL`] wide |
-//! | its dynamics by `pressure` | curve of the pressure: the radius as a share of the largest |
+//! | `radius_logarithmic` by `pressure` | curve of the pressure: the radius as a share of the largest |
 //! | `opaque_multiply` or `opaque` by `pressure` | curve of the pressure, if the radius has none |
-//! | `opaque` | share of clear medium in a load: one minus it |
-//! | `smudge` | height of a load: 0.3 mm less this share, and no load from 0.95 on |
+//! | `opaque` | share of clear medium in a load: one minus the value |
+//! | `smudge` | height of a load: 0.3 mm times one minus the value, and no load from 0.95 on |
 //! | `slow_tracking` | moving average over the path of a pen at 100 mm/s: 2 mm per unit, because MyPaint's filter lags by 0.01 s per unit and an average by half its length |
 //! | `elliptical_dab_ratio` | from 1.5 on a flat, else a round |
 //! | `elliptical_dab_angle` | fixed twist, or across the stroke with dynamics by `direction`, or with the pen by `tilt_ascension` |
@@ -42,9 +42,9 @@ const FLAT_RATIO: f64 = 1.5;
 /// An imported brush, and what happened to each of its settings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImportedBrush {
-    /// The brush as it is saved here.
+    /// The brush in our own format.
     pub preset: BrushPreset,
-    /// Settings that mean something here, each with what it became.
+    /// Settings that we imported, each with its effect, e.g. `opaque: 80 % medium in a load`.
     pub taken: Vec<String>,
     /// Settings and dynamics that mean nothing here.
     pub meaningless: Vec<String>,

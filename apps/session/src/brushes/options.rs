@@ -15,7 +15,7 @@ pub enum TiltUse {
     AsSet,
     /// The tilt of the pen, where it measures one.
     Pen,
-    /// Held as with a mouse, even if the pen measures a tilt.
+    /// The tilt that the general settings give a mouse, even if the pen measures its own.
     Ignored,
     /// Tilted by this angle, 0 to 80 degrees from upright, towards the hand of the general
     /// settings.
@@ -172,7 +172,7 @@ pub struct StabiliserSettings {
 }
 
 impl Default for StabiliserSettings {
-    /// Switched off, with 4 mm for when you switch it on.
+    /// Switched off. If you switch it on, its length is 4 mm.
     fn default() -> Self {
         Self { method: StabiliserMethod::Off, length: 4.0, unit: LengthUnit::Mm }
     }

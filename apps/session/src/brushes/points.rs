@@ -122,8 +122,8 @@ impl CurvePoints {
         height.clamp(y0, y1)
     }
 
-    /// Slope at a point before it is limited: the chord at either end, else the mean of both
-    /// chords, and 0 next to a level chord.
+    /// Slope at a point before limiting. At either end this is the slope of the only chord,
+    /// elsewhere the mean slope of both chords, or 0 if one of them is level.
     fn slope(&self, point: usize) -> f64 {
         let chord = |left: usize| {
             let [x0, y0] = self.0[left];
@@ -186,7 +186,7 @@ impl CurvePoints {
 /// Smallest and greatest exponent.
 const POWERS: [f64; 2] = [0.2, 5.0];
 
-/// How many points replace a power when you edit it.
+/// Number of points that replace a power when you edit its curve.
 const POINTS_OF_A_POWER: usize = 7;
 
 /// Pressure of the brush for each pressure of the pen, both 0 to 1.
@@ -206,7 +206,7 @@ impl Default for PressureCurve {
 }
 
 impl PressureCurve {
-    /// For a light hand: little pressure gives much.
+    /// For a light hand: little pressure of the pen gives more pressure of the brush.
     pub const SOFT: Self = Self::Power(0.625);
 
     /// The pressure of the pen as it is.
@@ -226,9 +226,10 @@ impl PressureCurve {
         }
     }
 
-    /// The points by which you edit the curve. Points of a power deviate from it by less than 0.025
-    /// for exponents from 0.5 on, and by less than 0.04 above 2.5. A smaller power is steeper at 0
-    /// than points can be, so they deviate more below a pressure of 0.01.
+    /// The points by which you edit the curve. A curve through points only approximates a power:
+    /// it deviates by less than 0.025 for exponents from 0.5 to 2.5, and by less than 0.04 above.
+    /// Powers below 0.5 are steeper at 0 than points can be. There the deviation is greater at
+    /// pressures below 0.01.
     #[must_use]
     pub fn points(&self) -> CurvePoints {
         let power = match self {

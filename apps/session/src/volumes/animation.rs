@@ -20,7 +20,7 @@ const RATE: u64 = 24;
 /// Longest side of an animation in pixels.
 const LONGEST_PX: usize = 720;
 
-/// How many frames give the colours of a GIF.
+/// The colours of a GIF come from its first frame and this many later ones at equal distances.
 const SAMPLED: u64 = 12;
 
 /// Steps per frame. Only whole steps are shown.

@@ -83,7 +83,7 @@ pub enum SceneTool {
     Push,
     /// Takes paint up, as a sponge does.
     Lift,
-    /// Dries the volumes below it, paint and shape.
+    /// Dries the volumes below the pen: their paint stays, and their shape no longer changes.
     Dry,
 }
 

@@ -31,7 +31,7 @@ pub struct ScenePicture {
     pub pixels: Vec<[u8; 4]>,
     /// The moment shown, in steps.
     pub step: u64,
-    /// Whether it has all pixels and samples. It has not while the scene moves.
+    /// Whether it has all pixels and samples. While the scene moves, it has fewer.
     pub fine: bool,
 }
 
@@ -168,9 +168,10 @@ pub struct SceneState {
     pub library: Arc<PigmentLibrary>,
     /// The light on pigments.
     pub light: Arc<Light>,
-    /// Its name.
+    /// Name of this light.
     pub illuminant: String,
-    /// Whether paint is still being mixed. The picture shows it afterwards.
+    /// Whether a painter with the present pigments is still being made. The picture shows its paint
+    /// afterwards.
     pub prepares: bool,
     /// The tubes, at most eight.
     pub tubes: Arc<Vec<SceneTube>>,
@@ -192,8 +193,8 @@ pub struct SceneState {
 /// Width of a pixel of a drawing in mm: 96 per inch, as on the command line.
 const PIXEL_MM: f64 = 25.4 / 96.0;
 
-/// A picture of a scene with all samples. From the recording, the command line makes the same
-/// bytes.
+/// A picture of a scene with all samples. The command line makes the same bytes from the
+/// recording.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneImage {
     /// Linear sRGB and opacity, row by row.

@@ -1,7 +1,8 @@
 //! Turns gestures of the hand into actions of the script.
 //!
-//! A script says how long an action lasts before it begins, but a hand does not. So we record a
-//! gesture as a series of short actions of fixed length, one after the other while the pen is down.
+//! When an action of a script begins, we must know how long it lasts, but nobody knows yet when you
+//! will lift the pen. So we record a gesture as a series of short actions of fixed length, one
+//! after the other while the pen is down.
 //! You see while you work exactly what the script plays. The last action ends at most [`PORTION`]
 //! steps after the pen was lifted.
 
@@ -133,8 +134,7 @@ pub(super) struct Hit {
 
 /// The surface that a ray from the eye meets first. `at` is a place of the picture as a share of
 /// its width and height from the upper left corner, and `aspect` is width divided by height.
-/// Returns
-/// `None` where there is no surface.
+/// Returns `None` where there is no surface.
 pub(super) fn surface_at(mesh: &Mesh, camera: &Camera, aspect: f32, at: [f32; 2]) -> Option<Hit> {
     let [right, up, back] = camera.axes();
     let high = (0.5 * camera.field_of_view_deg).to_radians().tan();

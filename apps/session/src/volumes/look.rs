@@ -30,7 +30,7 @@ impl Inside {
         if by_region { &ALL } else { &ALL[..3] }
     }
 
-    /// This choice in the words of settings. `None` leaves it to the regions.
+    /// This choice as a setting. `None` leaves the choice to each region.
     pub(super) fn as_setting(self) -> Option<settings::Inside> {
         match self {
             Self::OwnColours => Some(settings::Inside::OwnColors),
@@ -48,7 +48,7 @@ impl Inside {
         }
     }
 
-    /// The choice for all regions together.
+    /// The choice that all regions share, or [`Self::ByRegion`] if they differ.
     fn of_regions(styles: &[RegionStyle]) -> Self {
         let Some((first, others)) = styles.split_first() else { return Self::OwnColours };
         match others.iter().all(|other| other.inside == first.inside) {
@@ -66,7 +66,7 @@ impl Inside {
     }
 }
 
-/// The setting in the words of a script.
+/// The word for this setting in a script.
 fn word(inside: settings::Inside) -> &'static str {
     match inside {
         settings::Inside::OwnColors => "own-colours",
@@ -93,7 +93,7 @@ pub struct Look {
     pub hatching: bool,
     /// Picture on surfaces inside the volumes.
     pub inside: Inside,
-    /// Where the light stands.
+    /// Direction of the light.
     pub light: SceneLight,
 }
 

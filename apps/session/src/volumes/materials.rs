@@ -36,10 +36,11 @@ pub(super) struct Materials {
 }
 
 impl Materials {
-    /// Files and pigments that a script names. The files are relative to `folder`, and errors show
-    /// its `name` and `text`. If the script names no library, the palette uses the one that comes
-    /// with the program. Fails for a library that cannot be read, for a pigment that it lacks, and
-    /// for the file of a lamp, because the studio cannot use one here.
+    /// Reads the library and finds the pigments that a script names. Its path is relative to
+    /// `folder`, and errors show the `name` and `text` of the script. If the script names no
+    /// library, the palette uses the one that comes with the program. Fails for a library that
+    /// cannot be read, for a pigment that it lacks, and for the file of a lamp, because the studio
+    /// cannot use one here.
     pub(super) fn of(
         script: &Script,
         (name, text): (&str, &str),
@@ -147,8 +148,8 @@ fn tubes(
         .collect()
 }
 
-/// Gives a script the default tubes of a library. Tubes that exist keep their letters, since these
-/// identify the paint that was poured, and so their number stays. Fails if the library has fewer
+/// Gives a script the default tubes of a library. If the script has tubes, it keeps as many, with
+/// their letters, since these identify the paint that was poured. Fails if the library has fewer
 /// pigments than there are tubes.
 pub(super) fn fill_tubes(script: &mut Script, library: &PigmentLibrary) -> Result<(), FileFailure> {
     let names = tubes_of(library);

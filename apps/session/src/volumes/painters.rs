@@ -27,7 +27,7 @@ pub(super) struct Sight {
 
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Quality {
-    /// Whether it has all samples, or only one per pixel.
+    /// Whether to draw all samples of each pixel, or only one.
     pub(super) fine: bool,
     /// Width of this picture divided by its final width. Strokes keep their final size.
     pub(super) share: f32,
@@ -50,12 +50,12 @@ enum Kind {
 #[derive(Debug)]
 struct Made {
     kind: Kind,
-    /// Number of the pigments that it was made with.
+    /// Version of the pigments that it was made with.
     version: u64,
     painter: VolumePainter,
 }
 
-/// A painter that is being made, with its kind and the number of its pigments.
+/// A painter that is being made, with its kind and the version of its pigments.
 type InMaking = (Kind, u64, Making<Result<VolumePainter, PaintingError>>);
 
 #[derive(Debug)]
@@ -67,7 +67,7 @@ pub(super) struct Painters {
     /// Counts changes of the pigments.
     version: u64,
     made: Vec<Made>,
-    /// Kind and pigments of the painter that failed last.
+    /// Kind, and version of the pigments, of the painter that failed last.
     failed: Option<(Kind, u64)>,
     making: Option<InMaking>,
 }

@@ -99,7 +99,7 @@ impl Scene {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Found {
     pub(super) volumes: usize,
-    /// Index of the region of the last of these volumes. Outside there is none.
+    /// Index of the region of the last volume found. It is `None` if no volume is there.
     pub(super) region: Option<usize>,
     /// Heights of the films in mm by slot, and then of the vehicle.
     pub(super) heights_mm: [f64; SLOTS + 1],

@@ -1,5 +1,5 @@
-//! The recording of a scene: its script, sorted by gestures. You can save it together with its
-//! library, in the folder of its subject.
+//! The recording of a scene: its script, with the actions grouped by gesture. You can save it
+//! together with its library, in the folder of its subject.
 
 use std::path::{Path, PathBuf};
 
@@ -13,7 +13,7 @@ use super::event::{SceneEvent, SceneRecording};
 use super::gesture::Timed;
 use crate::failure::FileFailure;
 
-/// Most steps between two actions of a dryer that moves over the surface.
+/// Two drying actions belong to one gesture only if they begin at most this many steps apart.
 const DRYING: u32 = 24;
 
 /// The actions of one gesture, or actions of a script that belong together.
@@ -22,7 +22,7 @@ pub(super) struct Gesture {
     actions: Vec<Timed>,
 }
 
-/// A script with its actions sorted by gestures, so that you can undo one of them.
+/// A script with its actions grouped by gesture, so that you can undo a whole gesture.
 #[derive(Debug, Clone)]
 pub(super) struct Recorded {
     base: Script,
@@ -154,7 +154,7 @@ impl Recorded {
         }
     }
 
-    /// `what`, and the pigments of a recipe.
+    /// `what`, followed by the pigments of a recipe, e.g. `pour Ultramarine`.
     fn with_paint(&self, what: &str, recipe: &Recipe) -> String {
         let names = recipe.keys().filter_map(|letter| self.base.palette.get(letter).cloned());
         let names: Vec<String> = names.collect();
@@ -189,7 +189,7 @@ impl Gesture {
     }
 }
 
-/// Whether two dryers are near enough that one drag may have made both.
+/// Whether two drying actions are near enough that one drag may have made both.
 fn are_near(one: &Dry, other: &Dry) -> bool {
     let (Some(one), Some(other)) = (one.ball, other.ball) else { return false };
     let Ball { center, radius } = one;

@@ -36,7 +36,8 @@ pub(super) struct Scene {
     pub(super) folder: PathBuf,
     pub(super) file: Option<PathBuf>,
     pub(super) settings: Settings,
-    /// The choice of each region of the script when it was opened. `None` leaves it to the settings.
+    /// The picture inside the volumes of each region, as the opened script sets it. `None` leaves
+    /// it to the settings.
     insides: Vec<Option<settings::Inside>>,
     by_region: bool,
     view: FirstView,
@@ -124,7 +125,8 @@ impl Scene {
         self.timeline.catch_up(until)
     }
 
-    /// Takes one step, together with the hand. If an event of the hand fails, it is removed.
+    /// Takes one step, with the next action of the open gesture. If it fails, this removes the
+    /// gesture.
     pub(super) fn step(&mut self) -> Result<(), FileFailure> {
         let step = u32::try_from(self.timeline.moment()).unwrap_or(u32::MAX);
         if let Some(timed) = self.hand.as_mut().and_then(|hand| hand.next_action(step)) {
@@ -137,7 +139,7 @@ impl Scene {
         stepped
     }
 
-    /// Adds an action of the hand to the recording, and plays it.
+    /// Adds an action of a gesture to the recording, and plays it.
     pub(super) fn add(&mut self, timed: Timed) {
         let Timed { start, end, action } = timed.clone();
         self.recorded.add(timed);

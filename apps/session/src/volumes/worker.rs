@@ -32,7 +32,7 @@ const SEEK_TIME: Duration = Duration::from_millis(60);
 /// A picture with all samples is drawn this long after the last change.
 const REST: Duration = Duration::from_millis(160);
 
-/// How often we check whether paint is mixed.
+/// How often we check whether the painter that another thread makes is ready.
 const MIXING: Duration = Duration::from_millis(20);
 
 /// Steps after which time stops if nobody does anything: 10 s. The paint rests by then.
@@ -273,7 +273,7 @@ impl<'a> SceneLoop<'a> {
         Ok(())
     }
 
-    /// Takes paint that was mixed. The next picture shows it.
+    /// Takes the painter that another thread makes, if it is ready. The next picture uses it.
     fn take_made(&mut self) -> Result<(), FileFailure> {
         let Some(scene) = &mut self.scene else { return Ok(()) };
         let before = scene.painters.is_making();

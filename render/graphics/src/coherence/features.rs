@@ -1,11 +1,11 @@
 //! Features placed on a mesh at random, and the choice of those that a view or a density needs.
 //!
-//! Every patch has one feature at a uniformly distributed point. You draw it from some density on
-//! (features per unit of area), which is its priority. The priority lies between the density at
-//! which the patch has one feature and the density at which the part that it lies on has one. So
-//! the features up to a priority have exactly this density everywhere on the mesh, however you
-//! divide it into triangles. Below single faces the tree continues with halves of triangles, made
-//! on demand.
+//! Every patch has one feature at a uniformly distributed point. You draw a feature if the density
+//! that you want (features per unit of area) is at least its priority. We pick the priority at
+//! random between two densities: one feature on the patch, and one feature on the part of the patch
+//! that the point lies on. So the features up to a priority have exactly this density everywhere on
+//! the mesh, however you divide it into triangles. Below single faces the tree continues with
+//! halves of triangles, made on demand.
 
 use std::sync::Arc;
 
@@ -205,8 +205,8 @@ pub(super) struct InSight<'a> {
 struct Below(f32);
 
 impl<'a> InSight<'a> {
-    /// Features of at most this radius in pixels. With [`Density::Surface`] the radius counts in
-    /// pixels of that density.
+    /// Selects features that reach the picture if their radius is at most `margin_px`. With
+    /// [`Density::Surface`] this counts in pixels of that density.
     pub(super) fn new(
         projection: &'a Projection,
         density: Density,
@@ -356,7 +356,8 @@ impl Features {
     }
 }
 
-/// Whether features of an `area` within a sphere, and of its parts, are selected.
+/// Whether we select features of a part of the mesh with this `area`, or of smaller parts in it.
+/// The sphere encloses the part.
 fn wanted(
     select: &impl Select,
     center: Vec3,

@@ -97,7 +97,7 @@ impl Projection {
         self.axes
     }
 
-    /// One row of pixels contributes this to [`Self::unproject`] before the division by w.
+    /// The term of [`Self::unproject`] that all pixels of row `y` share, before the division by w.
     pub(super) fn row(&self, y: usize) -> Vec4 {
         let up = 1.0 - (2 * y + 1) as f32 / self.height as f32;
         self.model_from_clip.w_axis + self.model_from_clip.y_axis * up
@@ -147,8 +147,8 @@ impl Projection {
         ]
     }
 
-    /// `near far / (far - near)`. You get a point's depth by subtracting this over its distance
-    /// from a constant.
+    /// `near far / (far - near)`. If you divide this by a point's distance and subtract the result
+    /// from a constant, you get the point's depth.
     #[must_use]
     pub fn depth_scale(&self) -> f32 {
         let Camera { near, far, .. } = self.camera;

@@ -115,7 +115,8 @@ impl Splat {
     }
 }
 
-/// For each of some numbered places, the features that touch it. Features keep their order.
+/// The features that touch each of several places, which are bands or squares. Features keep their
+/// order.
 #[derive(Debug, Clone, PartialEq, Default)]
 struct Lists {
     /// Index in `splats` at which the list of each place begins, then the end of the last.

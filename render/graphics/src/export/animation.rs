@@ -60,8 +60,8 @@ impl<'a, W: Write> Gif<'a, W> {
         self.push_held(frame, 1)
     }
 
-    /// Appends a frame and shows it for `durations` frames, 655 seconds at most. Use this to hold
-    /// the last picture, for example.
+    /// Appends a frame and shows it as long as `durations` frames, 655 seconds at most. For
+    /// example, use this to hold the last picture.
     ///
     /// # Errors
     /// [`FrameError::Differs`] for another size, [`FrameError::Encoder`].
@@ -157,7 +157,7 @@ impl<W: Write> Apng<W> {
         self.push_held(&CompressedFrame::new(frame)?, 1)
     }
 
-    /// Appends a frame and shows it for `durations` frames, 65 seconds at most.
+    /// Appends a frame and shows it as long as `durations` frames, 65 seconds at most.
     ///
     /// # Errors
     /// [`FrameError::Differs`] for another size, [`FrameError::Count`] for one frame too many,

@@ -18,7 +18,7 @@ use super::exr::linear_exr;
 use super::{ExportError, check_cell, check_size};
 use crate::field::Field;
 
-/// Users get a note from this share of pixels outside the gamut on.
+/// Users get a note if at least this share of the pixels is outside the gamut.
 const NOTEWORTHY: f64 = 0.0005;
 
 /// File format of a picture.

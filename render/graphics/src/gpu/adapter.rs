@@ -175,7 +175,7 @@ pub enum DeviceError {
         reason: String,
     },
     /// A buffer is larger than the adapter allows.
-    #[error("{what} takes {bytes} bytes, the device lends {limit}")]
+    #[error("{what} takes {bytes} bytes, the device allows {limit}")]
     TooLarge {
         /// Description of the content.
         what: &'static str,

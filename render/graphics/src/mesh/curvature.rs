@@ -95,8 +95,8 @@ const LEAST_HEIGHT: f64 = 1e-5;
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct ShapeTensor {
     pub(super) mean: f64,
-    /// (x, y): half the difference of both curvatures, along the squared direction of the greater
-    /// one (by sign).
+    /// (x, y) as a complex number. Its length is half the difference of both curvatures. Its
+    /// direction is the square of the direction in which the curvature is greater (by sign).
     pub(super) difference: DVec2,
 }
 
@@ -271,8 +271,8 @@ impl TangentPlane {
         DVec2::new(vector.dot(self.right), vector.dot(self.up))
     }
 
-    /// Unit vector along a line. You give the square of the line, of any length but 0. The sign is
-    /// arbitrary.
+    /// Unit vector along the line with this square, of arbitrary sign. The square may have any
+    /// length but 0.
     pub(super) fn along(&self, squared: DVec2) -> DVec3 {
         let root = square_root(squared);
         (self.right * root.x + self.up * root.y).normalize_or(self.right)
@@ -295,7 +295,7 @@ pub(super) fn carried(vector: DVec3, from: DVec3, to: DVec3) -> Option<DVec3> {
     (opening > LEAST_OPENING).then(|| vector - (from + to) * (to.dot(vector) / opening))
 }
 
-/// Complex square root of a number of any length but 0, as a unit vector. This is 1 for 0.
+/// Complex square root, scaled to length 1. For 0 this is 1.
 fn square_root(squared: DVec2) -> DVec2 {
     let unit = squared.normalize_or(DVec2::X);
     // Each form loses digits on the other side.
@@ -368,8 +368,8 @@ impl Places {
     }
 }
 
-/// One unit normal for every place: the sum of its vertices' normals. Each vertex normal is
-/// weighted over its triangles by the sine of the angle over the lengths of both edges (Max,
+/// One unit normal for every place: the sum of its vertices' normals. Each triangle adds to the
+/// weight of a vertex normal the sine of its angle divided by the lengths of both edges (Max,
 /// "Weights for computing vertex normals from facet normals", 1999). This way neither seams nor
 /// the cut into triangles shift it. A vertex without a normal takes the triangle's. A place
 /// without triangles takes the mean of its vertices' normals, or +y.
@@ -462,9 +462,9 @@ mod tests {
     use crate::mesh::test_shapes::{bare, cylinder, degrees_between, ragged, rough, torus, turned};
     use glam::{Quat, Vec3};
 
-    /// Greatest errors against known curvatures. The first is the error of k, relative to the
-    /// greatest curvature at the vertex. The second is the error of the direction of the least
-    /// one, in degrees.
+    /// Greatest errors against known curvatures. The first is the error of both curvatures,
+    /// relative to the greatest at the vertex. The second is the error of the direction of the
+    /// least curvature, in degrees.
     fn errors(mesh: &Mesh, known: impl Fn(Vec3) -> ([f32; 2], Vec3), radius: f32) -> [f32; 2] {
         let mut worst = [0.0_f32; 2];
         for (curvature, &position) in mesh.curvatures(0).iter().zip(&mesh.positions) {

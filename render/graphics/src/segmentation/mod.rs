@@ -73,7 +73,8 @@ impl Segmentation {
 /// Finds the regions of `picture`, which is encoded sRGB with coverage.
 ///
 /// We link pixels with close modes and merge regions that are too small into a neighbour. Then we
-/// merge neighbours with mean modes within the range radius, the nearest first. If
+/// merge neighbours if their mean colours differ by at most the range radius, the nearest first.
+/// The mean colour of a region is the mean over the modes of its pixels. If
 /// [`SegmentationSettings::tone_step`] is above 0, we divide smooth gradients into tones.
 ///
 /// Bare paper (coverage below 1/2) counts as white and never shares a region with paint, unless
@@ -163,7 +164,7 @@ pub enum SegmentationError {
     },
     /// The radius of the window in colour.
     #[error("a range radius is a number above 0, found `{found}`")]
-    #[hint("8 keeps apart what the eye does; more is flatter")]
+    #[hint("8 keeps apart what the eye tells apart; more gives flatter regions")]
     RangeRadius {
         /// The radius that was set, in CIELUV.
         found: f32,

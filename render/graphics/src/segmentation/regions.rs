@@ -151,8 +151,8 @@ impl RegionGraph {
         self.weights[region as usize].pixels
     }
 
-    /// The distance of the mean modes of two regions in CIELUV. We add a large constant if one is
-    /// paint and the other bare paper.
+    /// The distance between the mean colours of two regions in CIELUV, as means over the modes of
+    /// their pixels. We add a large constant if one is paint and the other bare paper.
     pub(super) fn apart(&self, one: u32, other: u32) -> f64 {
         const PAPER: f64 = 1e4;
         let [one, other] = [one, other].map(|region| &self.weights[region as usize]);
@@ -231,9 +231,9 @@ fn neighbours(labels: &Field<u32>, count: usize) -> Vec<Vec<u32>> {
     neighbours
 }
 
-/// Merges each region of fewer than `least_px` pixels into the neighbour with the nearest mean mode
-/// in colour, the smallest region first, until none is left or there is one region. Ties go to the
-/// smallest label.
+/// Merges each region of fewer than `least_px` pixels into the neighbour of the nearest mean colour
+/// (see [`RegionGraph::apart`]), the smallest region first, until none is left or there is one
+/// region. Ties go to the smallest label.
 pub(super) fn join_small(graph: &mut RegionGraph, least_px: u32) {
     let all = (0..graph.count() as u32).map(|region| Reverse((graph.pixels(region), region)));
     let mut small: BinaryHeap<_> = all.filter(|Reverse((pixels, _))| *pixels < least_px).collect();
@@ -254,8 +254,8 @@ pub(super) fn join_small(graph: &mut RegionGraph, least_px: u32) {
     }
 }
 
-/// Merges neighbours with mean modes at most `range` apart in CIELUV, the nearest first. Ties go to
-/// the smallest labels.
+/// Merges neighbours if their mean colours differ by at most `range` in CIELUV (see
+/// [`RegionGraph::apart`]), the nearest first. Ties go to the smallest labels.
 pub(super) fn join_alike(graph: &mut RegionGraph, range: f64) {
     // Distances are not negative, so their bit patterns sort in the same order.
     let mut pairs = BinaryHeap::new();

@@ -287,7 +287,7 @@ impl Shape {
         a.depth.max(b.depth).max(c.depth)
     }
 
-    /// The columns in which it may have pixels, of `width`.
+    /// The columns in which it may have pixels, in a picture of `width` columns.
     pub(super) fn columns(&self, width: usize) -> Range<usize> {
         let [a, b, c] = &self.corners;
         pixel_range(a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x), width)
@@ -526,7 +526,7 @@ impl Screen {
 /// Position of the far plane in [`PLANES`].
 const FAR: usize = 1;
 
-/// This plane goes through the eye along the picture. Everything beyond the near plane is inside.
+/// The plane through the eye parallel to the picture. Everything beyond the near plane is inside.
 const BEFORE_EYE: Vec4 = Vec4::W;
 
 /// Near and far plane, then the four planes of the guard band. A point is inside where the
@@ -546,8 +546,8 @@ fn interpolated(from: ClippedCorner, to: ClippedCorner, share: f32) -> ClippedCo
     ClippedCorner { clip: from.clip + (to.clip - from.clip) * share, weights }
 }
 
-/// The pixels with a centre from `low` to `high`, of `count` pixels in a row or column. Both
-/// limits are in [`STEPS`] of a pixel.
+/// The pixels with a centre from `low` to `high`, in a row or column of `count` pixels. Both limits
+/// are in [`STEPS`] of a pixel.
 pub(super) fn pixel_range(low: i32, high: i32, count: usize) -> Range<usize> {
     let first = (low + STEPS / 2 - 1).div_euclid(STEPS).max(0) as usize;
     let after = ((high + STEPS / 2).div_euclid(STEPS).max(0) as usize).min(count);

@@ -47,7 +47,7 @@ impl<'a> SurfacePoint<'a> {
         }
     }
 
-    /// Points of one triangle, which is the first fragment's.
+    /// Points on the triangle that the first fragment shows. All `fragments` must show it.
     #[inline]
     pub(super) fn on_one_triangle<const N: usize>(
         mesh: &'a PackedMesh,

@@ -16,7 +16,7 @@ use crate::mesh::model::Mesh;
 /// curvature take their neighbours' directions.
 const LEAST_SMOOTHING: f64 = 1e-3;
 
-/// A guide needs a part along the surface of at least this length, relative to the guide.
+/// The part of a guide along the surface must be longer than this share of the guide's length.
 const LEAST_ALONG: f64 = 1e-3;
 
 /// A smooth field of tangent directions of arbitrary sign on a mesh, one for every vertex.
@@ -154,7 +154,8 @@ impl DirectionField {
     }
 }
 
-/// Line with this square. This is a projected axis where nothing determines the line.
+/// Unit vector along the line with this square. If the square is 0, nothing determines the line,
+/// and this follows the y axis.
 fn line(plane: &TangentPlane, square: DVec2) -> DVec3 {
     let axis = plane.projected(DVec3::Y);
     plane.along(if square == DVec2::ZERO { axis.rotate(axis) } else { square })
@@ -208,10 +209,10 @@ impl DirectionField {
     /// Gives the lines signs along the spanning tree of greatest reliability. The tree grows from
     /// all places with a guide at once, so that flow runs along guides and not against them.
     ///
-    /// Signs cannot agree around singular places and across the cuts that half turns force. This
-    /// marks the vertices there as singular and sets the strength to 0. The strength rises to 1
-    /// over `fade_rings` rings of edges. Use 2 or 3. If you pass 0, it is 1 right beside singular
-    /// vertices.
+    /// Around some places lines make half a turn, so that the arrows of neighbours must oppose each
+    /// other somewhere. This marks vertices with such neighbours as singular and sets the strength
+    /// there to 0. The strength rises to 1 over `fade_rings` rings of edges. Use 2 or 3. If you
+    /// pass 0, it is 1 right beside singular vertices.
     #[must_use]
     pub fn oriented(&self, fade_rings: usize) -> FlowField {
         self.signed(self.arrows(), fade_rings)
@@ -369,7 +370,8 @@ fn smooth(at: f64) -> f64 {
     at * at * (3.0 - 2.0 * at)
 }
 
-/// The tree reaches a place from an earlier place, or as the first of its part.
+/// A step of the spanning tree: it reaches a place from an earlier one, or begins a connected part
+/// there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Step {
     pub(super) place: u32,

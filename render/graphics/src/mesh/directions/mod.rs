@@ -46,7 +46,7 @@ impl Default for DirectionSettings {
     }
 }
 
-/// A direction that you want at a vertex, more or less.
+/// A direction that you want at a vertex, with its weight.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Line {
     /// Direction of any length and sign in the model's axes. Only its part along the surface

@@ -1,5 +1,5 @@
-//! Smooth lines through evidence. The field of squares deviates as little as possible from the
-//! evidence and from link to link.
+//! Finds smooth lines, one at every place of a surface. They deviate as little as possible from the
+//! lines that we want there (the evidence), and from the lines of neighbouring places.
 //!
 //! With squares z of unit lines, and links that carry them between tangent planes, we minimise
 //! spread * sum of stiffness |z_i - turn z_j|^2 over the links + sum of weight |z_i - wanted_i|^2
@@ -161,8 +161,9 @@ fn add_scaled(field: &mut [DVec2], factor: f64, other: &[DVec2]) {
     pairs.for_each(|(value, other)| *value += *other * factor);
 }
 
-/// A direction begins to count at the first difference of both curvatures, relative to the greater
-/// one, and counts fully at the second. Below these the shape of the triangles decides it.
+/// A principal direction begins to count where the curvatures differ by the first share of the
+/// greater one, and counts fully from the second share on. If they differ less, the direction
+/// depends on the shape of the triangles.
 const ANISOTROPY: [f64; 2] = [0.03, 0.15];
 
 /// We add no axis to a connected part if its mean reliability is above the second number. Below
@@ -173,8 +174,8 @@ const SHAPELESS: [f64; 2] = [0.005, 0.03];
 /// best axis.
 const AXIS_SHARE: f64 = 0.5;
 
-/// Directions asked for at all places: sums of squares of vectors in the tangent planes and of
-/// their weights (reliability in 0..1 times area).
+/// The directions that we want at all places. A place has the sum of its weights (each is a
+/// reliability in 0..1 times an area), and the weighted sum of the squares of tangent vectors.
 #[derive(Debug, Clone)]
 pub(super) struct Evidence {
     pub(super) weights: Vec<f64>,
@@ -258,7 +259,8 @@ fn reliability(tensor: &ShapeTensor, radius: f64) -> f64 {
     scaled / (1.0 + scaled) * smoothstep(ANISOTROPY, difference / (mean + half))
 }
 
-/// Unit square of the principal direction, or 0 if there is none.
+/// The principal direction as a unit vector, squared as a complex number, so that a direction and
+/// its opposite give the same. This is 0 if the tensor has no principal direction.
 fn principal_square(tensor: &ShapeTensor, along: Along) -> DVec2 {
     // On a convex surface the curvature that is greater by sign is also greater by size.
     let greatest = if tensor.mean >= 0.0 { tensor.difference } else { -tensor.difference };

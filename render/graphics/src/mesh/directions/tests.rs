@@ -38,8 +38,8 @@ fn greatest_error(
     angles.fold(0.0, f32::max)
 }
 
-/// Checks that every direction is a unit vector, and that flow is finite and has its strength for
-/// length.
+/// Checks that every direction and arrow is a unit vector, that strengths and reliabilities are 0
+/// to 1, and that flow is no longer than 1.
 fn assert_sound(name: &str, mesh: &Mesh, field: &DirectionField, flow: &FlowField) {
     for vertex in 0..mesh.positions.len() {
         for direction in [field.along(vertex), flow.arrow(vertex)] {

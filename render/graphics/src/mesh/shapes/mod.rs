@@ -84,9 +84,9 @@ impl GridSize {
 
 impl Mesh {
     /// Appends the parametric surface `position(u, v)` for u and v in 0..1, white and with one
-    /// material. Normals evaluate `position` slightly beyond this range. Texture coordinates are
-    /// (u, v). Seen from outside, u increases to the right and v downwards. This joins edges that
-    /// coincide. If an edge collapses to a point, it becomes a pole.
+    /// material. To find normals, this calls `position` slightly beyond that range. Texture
+    /// coordinates are (u, v). Seen from outside, u increases to the right and v downwards. This
+    /// joins edges that coincide. If an edge collapses to a point, it becomes a pole.
     pub fn add_grid(&mut self, cells: GridSize, material: u32, position: impl Fn(Vec2) -> Vec3) {
         let GridSize { columns, rows } = cells;
         let first = self.positions.len();

@@ -29,7 +29,7 @@ impl InsideCounter {
     ///
     /// A device draws the model again for its depth and counts in the stencil, in passes of at
     /// most 255 surfaces. This may differ from the processor where the outline of a surface passes
-    /// within a pixel or its skin within rounding.
+    /// within a pixel, or where the point lies on a surface except for rounding.
     ///
     /// # Errors
     /// [`DeviceError`] if a device has no memory left, was lost or has no stencil that can be read

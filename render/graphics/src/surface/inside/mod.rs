@@ -124,8 +124,8 @@ impl<W: Fn(u32, usize) -> i32 + Sync> CrossingSum for WeighedCount<W> {
 pub struct Gates<'a> {
     /// For each closed surface: a unit vector, and as the fourth number the least cosine between
     /// this vector and the normal of a triangle that the surface holds. Use -2 for a surface that
-    /// holds all triangles. The fifth number is the only body that it can hold triangles of, 0 for
-    /// any. The other numbers do not matter.
+    /// holds all triangles. The fifth number is a body: the surface holds only triangles of this
+    /// body. Use 0 for a surface that holds triangles of any body. The other numbers do not matter.
     pub surfaces: &'a [[f32; 8]],
     /// For each triangle of the scene: its unit normal, and as the fourth number its body. Use 0
     /// for a triangle that surfaces of any body can hold. This image must be in the memory of the

@@ -73,8 +73,8 @@ impl Scene {
     }
 }
 
-/// Number of values that differ. This panics if the other picture does not have a value within a
-/// pixel.
+/// Number of values that differ. They may differ only at edges: this panics if one differs where
+/// the processor has a single value within one pixel around.
 fn differing(on_cpu: &Field<i32>, on_gpu: &Field<i32>, what: &str) -> usize {
     let width = on_cpu.width();
     let height = on_cpu.height();

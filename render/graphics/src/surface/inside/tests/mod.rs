@@ -13,15 +13,15 @@ use crate::mesh::Mesh;
 use crate::surface::{
     Count, Crossing, CrossingSum, Crossings, Fragment, VisibilityBuffer, WeighedCount,
 };
-use scene::{Found, Scene, Surfaces, camera, mesh_of, random_scene, wall};
+use scene::{CountErrors, Scene, Surfaces, camera, mesh_of, random_scene, wall};
 
 fn before_wall(surfaces: Surfaces) -> Scene {
     let camera = camera(Vec3::ZERO, Vec3::NEG_Z);
     Scene { mesh: wall(-3.0, 6.0, 4), surfaces, camera, size: (97, 61) }
 }
 
-fn agreed(scene: &Scene) -> Found {
-    let found = scene.compared();
+fn agreed(scene: &Scene) -> CountErrors {
+    let found = scene.compared_with_winding_numbers();
     assert!(found.wrong == 0 && found.differ * 500 <= found.samples, "{found:?}");
     found
 }
@@ -81,7 +81,7 @@ fn three_hundred_surfaces_count_three_hundred() {
     }
 }
 
-/// Every pixel shows something on the near plane. This hides no face from the count.
+/// A buffer in which every pixel shows a point on the near plane, so that every face counts.
 fn without_depth((width, height): (usize, usize)) -> VisibilityBuffer {
     let seen = Fragment { triangle: 0, second: 0.0, third: 0.0, depth: 0.0 };
     VisibilityBuffer::filled(width, height, seen)

@@ -23,13 +23,14 @@ pub(crate) struct Scene {
     pub(crate) size: (usize, usize),
 }
 
+/// How the counts of a scene compare with winding numbers.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Found {
+pub(super) struct CountErrors {
     pub(super) samples: usize,
     pub(super) most: i32,
     pub(super) differ: usize,
-    /// Of these, points farther than half a pixel from every outline and than a thousandth of the
-    /// radius from every skin.
+    /// Points with a wrong count that are farther than half a pixel from every outline, and farther
+    /// than a thousandth of the radius from every skin.
     pub(super) wrong: usize,
 }
 
@@ -58,7 +59,7 @@ impl Scene {
     }
 
     /// Compares the counts with winding numbers at every pixel that shows the scene.
-    pub(super) fn compared(&self) -> Found {
+    pub(super) fn compared_with_winding_numbers(&self) -> CountErrors {
         let visible = self.visible();
         let counts = self.counts();
         let view = self.view();
@@ -68,7 +69,7 @@ impl Scene {
         let found = pixels.map(|(pixel, (&seen, &count))| {
             if seen.triangle == NO_TRIANGLE {
                 assert_eq!(count, 0, "nothing is seen at {pixel}");
-                return Found::default();
+                return CountErrors::default();
             }
             let place = self.place(seen);
             let expected = solids.iter().filter(|solid| solid.holds(place)).count() as i32;
@@ -79,13 +80,13 @@ impl Scene {
                     solid.has_skin_at(place, 1e-3) || solid.has_outline_at(at.into(), 0.5, &view)
                 });
             let [differ, wrong] = [differs, wrong].map(usize::from);
-            Found { samples: 1, most: expected, differ, wrong }
+            CountErrors { samples: 1, most: expected, differ, wrong }
         });
-        found.reduce(Found::default, Found::and)
+        found.reduce(CountErrors::default, CountErrors::and)
     }
 }
 
-impl Found {
+impl CountErrors {
     pub(super) fn and(self, other: Self) -> Self {
         Self {
             samples: self.samples + other.samples,
@@ -131,8 +132,8 @@ const RINGS: u32 = 10;
 const AROUND: u32 = 14;
 
 impl Surfaces {
-    /// Adds a closed surface around `center`. In each direction of a sphere, it is as far away as
-    /// `radius` says.
+    /// Adds a closed surface around `center`. `radius` gives its distance from the centre in each
+    /// direction.
     pub(crate) fn add_star(&mut self, center: Vec3, radius: impl Fn(Vec3) -> f32) {
         let first = self.vertices.len() as u32;
         let mut directions = vec![Vec3::Y];
@@ -376,18 +377,18 @@ pub(crate) fn random_scene(seed: u64) -> Scene {
     Scene { mesh, surfaces, camera, size: (97, 61) }
 }
 
-fn compared(seeds: std::ops::Range<u64>) -> Found {
+fn agreement(seeds: std::ops::Range<u64>) -> CountErrors {
     let found = seeds.map(|seed| {
-        let found = random_scene(seed).compared();
+        let found = random_scene(seed).compared_with_winding_numbers();
         assert_eq!(found.wrong, 0, "scene {seed}: {found:?}");
         found
     });
-    found.fold(Found::default(), Found::and)
+    found.fold(CountErrors::default(), CountErrors::and)
 }
 
 #[test]
 fn counts_of_two_hundred_scenes_are_winding_numbers() {
-    let found = compared(0..200);
+    let found = agreement(0..200);
     assert!(found.samples > 400_000 && found.most >= 5, "{found:?}");
     assert!(found.differ * 1000 <= found.samples, "{found:?}");
 }
