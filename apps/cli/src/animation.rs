@@ -26,10 +26,10 @@ pub(crate) struct SubjectOptions {
     /// Height of the picture of a mesh in pixels [default: three quarters of the width]
     #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u64).range(LEAST_PX..=MOST_PX))]
     height: Option<u64>,
-    /// Camera. For a mesh: degrees around it and above the horizon, and the angle of view, such as
-    /// `30,20,30`, from where you see all of it; or a file of keyframes (.toml). For a picture that
-    /// can be turned (in `stencil`, and in `painterly` with a depth map): degrees to the right and
-    /// upwards, such as `8,4`
+    /// Camera. For a mesh: degrees around it, degrees above the horizon, and the angle of view, such
+    /// as `30,20,30`, at a distance that shows the whole mesh; or a file of keyframes (.toml). For a
+    /// picture that can be turned (in `stencil`, and in `painterly` with a depth map): degrees to the
+    /// right and upwards, such as `8,4`
     #[arg(long, value_name = "DEG,DEG[,DEG]|FILE", allow_hyphen_values = true)]
     camera: Option<String>,
     /// Turn the camera around a mesh in this number of frames. In front of a picture that can be

@@ -235,8 +235,8 @@ impl WorkerLoop<'_> {
         let numbers = session.history_numbers();
         let (_, done) = session.history();
         let to = match action {
-            Action::Undo {} => groups.undo_to(&numbers, done),
-            Action::Redo {} => groups.redo_to(&numbers, done),
+            Action::Undo {} => groups.undo_target(&numbers, done),
+            Action::Redo {} => groups.redo_target(&numbers, done),
             _ => None,
         };
         groups.give_up();

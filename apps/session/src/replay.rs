@@ -170,7 +170,7 @@ impl Groups {
     }
 
     /// Index of the state that one undo leads to, if the last action belongs to a group.
-    pub(super) fn undo_to(&self, numbers: &[u64], done: usize) -> Option<usize> {
+    pub(super) fn undo_target(&self, numbers: &[u64], done: usize) -> Option<usize> {
         let now = *numbers.get(done)?;
         let (before, _) =
             self.whole.iter().find(|(before, after)| (before + 1..=*after).contains(&now))?;
@@ -179,7 +179,7 @@ impl Groups {
     }
 
     /// Index of the state that one redo leads to, if the next action belongs to a group.
-    pub(super) fn redo_to(&self, numbers: &[u64], done: usize) -> Option<usize> {
+    pub(super) fn redo_target(&self, numbers: &[u64], done: usize) -> Option<usize> {
         let now = *numbers.get(done)?;
         let (_, after) =
             self.whole.iter().find(|(before, after)| (*before..*after).contains(&now))?;
@@ -212,18 +212,18 @@ mod tests {
             (4, Some(1), None),
             (5, None, None),
         ] {
-            assert_eq!(groups.undo_to(&numbers, at), undo, "undo from {at}");
-            assert_eq!(groups.redo_to(&numbers, at), redo, "redo from {at}");
+            assert_eq!(groups.undo_target(&numbers, at), undo, "undo from {at}");
+            assert_eq!(groups.redo_target(&numbers, at), redo, "redo from {at}");
         }
     }
 
     #[test]
     fn a_group_whose_beginning_is_forgotten_is_undone_as_far_as_it_is_known() {
         let groups = grouped();
-        assert_eq!(groups.undo_to(&[2, 3, 4], 2), Some(0));
+        assert_eq!(groups.undo_target(&[2, 3, 4], 2), Some(0));
         // Another action replaced the last ones.
-        assert_eq!(groups.redo_to(&[0, 1, 2, 9], 2), None);
-        assert_eq!(groups.undo_to(&[0, 1, 2, 9], 3), None);
+        assert_eq!(groups.redo_target(&[0, 1, 2, 9], 2), None);
+        assert_eq!(groups.undo_target(&[0, 1, 2, 9], 3), None);
     }
 
     #[test]
@@ -231,11 +231,11 @@ mod tests {
         let mut groups = Groups::default();
         groups.begin(&[0], 0);
         groups.end(&[0, 1], 1);
-        assert_eq!(groups.undo_to(&[0, 1], 1), None);
+        assert_eq!(groups.undo_target(&[0, 1], 1), None);
         groups.begin(&[0, 1], 1);
         groups.give_up();
         groups.end(&[0, 1, 2, 3], 3);
-        assert_eq!(groups.undo_to(&[0, 1, 2, 3], 3), None);
+        assert_eq!(groups.undo_target(&[0, 1, 2, 3], 3), None);
         let mut groups = grouped();
         groups.begin(&[0, 1, 7], 2);
         groups.end(&[0, 1, 7, 8, 9], 4);

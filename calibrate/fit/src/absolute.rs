@@ -147,11 +147,11 @@ fn undetermined(fit: &Refined) -> Vec<PigmentId> {
 ///
 /// We first choose k2, the share of diffuse light that the surface reflects back inside, from 0, 0.3 and
 /// 0.6 (k1 stays as given). Then we choose the unevenness of the films from 0, 0.25 and 0.5. The score of a
-/// model is its mean CIEDE2000 in five-fold cross-validation over seeded folds. We replace the current
-/// model only if the score of another one is lower by more than 3 %. With fewer than 20 films you get the
-/// plain model (0 and 0) without a test. Use the chosen k2 for prediction only. It does not measure the
-/// surface, because unevenness has a similar effect. `task` counts the fits, of which there are
-/// [`CHOICE_FITS`].
+/// model is its mean CIEDE2000 in five-fold cross-validation, with the same random folds every time. We
+/// replace the current model only if the score of another one is lower by more than 3 %. With fewer than 20
+/// films you get the plain model (0 and 0) without a test. Use the chosen k2 for prediction only. It does
+/// not measure the surface, because unevenness has a similar effect. `task` counts the fits, of which there
+/// are [`CHOICE_FITS`].
 ///
 /// # Errors
 /// [`FitError`] from any fit, or if `task` was cancelled.
@@ -227,7 +227,7 @@ pub(crate) fn errors(
         .collect()
 }
 
-/// Deals `count` indices in seeded random order into `folds` groups.
+/// Deals `count` indices at random into `folds` groups. They are the same every time.
 pub(crate) fn folds(count: usize, folds: usize) -> Vec<Vec<usize>> {
     let mut order: Vec<usize> = (0..count).collect();
     order.shuffle(&mut ChaCha8Rng::seed_from_u64(FOLD_SEED));

@@ -82,7 +82,7 @@ impl Comparison {
 /// Measurements that you can compare with a library.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparable {
-    /// Samples with all pigments in the library, on the library's wavelengths.
+    /// The samples whose pigments are all in the library, resampled to its wavelengths.
     pub set: SwatchSet,
     /// Index in the library of each pigment of `set`.
     pub in_library: Vec<PigmentId>,
@@ -93,7 +93,8 @@ pub struct Comparable {
 }
 
 impl Comparable {
-    /// Selects the samples of `set` with all pigments in `library`. Names match without regard to case.
+    /// Selects the samples of `set` if all their pigments are in `library`. Names match without regard to
+    /// case.
     ///
     /// # Errors
     /// [`ComparisonError`] if there is none, or if the readings do not cover the library's wavelengths.
@@ -215,9 +216,9 @@ impl Comparable {
         films.sum()
     }
 
-    /// Leaves out each mixture in turn (for absolute amounts, each of 10 seeded groups), fits the others as
-    /// `library` was fitted, and predicts it. You get `None` if the reference white was not measured, or
-    /// there is no mixture.
+    /// Leaves out each mixture in turn, fits the others as `library` was fitted, and predicts it. For
+    /// absolute amounts we deal the mixtures at random into 10 groups (the same every time), and leave out
+    /// one group at a time. You get `None` if the reference white was not measured, or there is no mixture.
     ///
     /// If a library has no settings of its fit, we assume [`FitSettings::default`] and read dark readings
     /// as black.

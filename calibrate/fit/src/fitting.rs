@@ -445,8 +445,8 @@ pub enum FittingError {
     #[error("every sample is excluded")]
     #[hint("leave out some [exclude]")]
     AllExcluded,
-    /// Absolute amounts have no reference and a method of their own.
-    #[error("absolute amounts take neither a reference white nor another method")]
+    /// Absolute amounts have no reference white, and you cannot choose their method.
+    #[error("a fit of absolute amounts has no reference white, and its method is always `refined`")]
     #[hint("leave out [reference] and [method]")]
     #[fault(Setting)]
     AbsoluteOptions,

@@ -43,14 +43,15 @@ pub struct FitRequest {
     pub surface: Option<Surface>,
     /// Whether the readings include the specular reflection
     pub specular: Specular,
-    /// Treatment of a reading below k1 [default: refuse]; without `surface`, k1 stays 0.03
+    /// Treatment of a reading below k1. If you set this without `surface`, k1 stays 0.03 even if readings
+    /// are lower [default: refuse]
     pub below_surface: Option<BelowSurface>,
     /// Smoothness of K and S over wavelength: auto, none, or a weight such as 10
     #[serde(serialize_with = "write_smoothness", deserialize_with = "read_smoothness")]
     #[schemars(schema_with = "word_or_number")]
     pub smoothness: Smoothness,
-    /// Unevenness of films of absolute amounts: auto, or the standard deviation of log thickness
-    /// such as 0.25
+    /// Unevenness of the films in a fit of absolute amounts: auto, or the standard deviation of log
+    /// thickness such as 0.25
     #[serde(serialize_with = "write_unevenness", deserialize_with = "read_unevenness")]
     #[schemars(schema_with = "word_or_number")]
     pub unevenness: Option<f64>,
@@ -88,7 +89,8 @@ impl Default for Provenance {
 pub struct ValidationRequest {
     /// Options of the fits
     pub fit: FitRequest,
-    /// Leave out mixtures in this many seeded groups instead of one at a time [absolute amounts: 10]
+    /// Deal the mixtures at random into this many groups (the same every time), and leave out one group at a
+    /// time [default: one mixture at a time; for absolute amounts, 10 groups]
     pub folds: Option<usize>,
     /// Leave out only mixtures with this pigment (may be repeated)
     pub with: Vec<String>,

@@ -78,7 +78,8 @@ pub struct ValidationPlan<'a> {
     /// Estimates from the fit of all samples, which are reused rather than estimated in each fit. On the
     /// Van Gogh oils this changes the mean error by 0.004 CIEDE2000.
     pub state: Option<RefinedState>,
-    /// Number of seeded groups that are left out in turn, or `None` for each mixture by itself.
+    /// Number of groups into which we deal the mixtures at random (the same every time), to leave out one
+    /// group at a time. `None` leaves out one mixture at a time.
     pub folds: Option<usize>,
     /// Counts the mixtures that were left out.
     pub task: &'a Task,
@@ -314,7 +315,7 @@ pub(crate) struct Refits<'a> {
 pub(crate) struct Refit {
     grid: Grid,
     curves: Vec<Curves>,
-    /// Index in the set of each pigment of `curves`.
+    /// For each of `curves`, index of its pigment in the set.
     identified: Vec<PigmentId>,
     unknown: Vec<Unidentified>,
 }

@@ -25,7 +25,7 @@ pub struct Overview {
     pub pigments: Vec<String>,
     /// Mean share of each pigment in each square. There is a list of all squares for each pigment.
     pub share: Vec<Vec<f32>>,
-    /// Mean probability of each pigment in each square, as in `share`.
+    /// Mean probability that each pigment is present in each square. The lists are as in `share`.
     pub presence: Vec<Vec<f32>>,
     /// Mean chi-square of each square, which includes pixels out of gamut.
     pub chi2: Vec<f32>,
@@ -155,13 +155,13 @@ const DARKEST: u8 = 150;
 pub struct PigmentPictures {
     /// Index in [`Overview::pigments`].
     pub place: usize,
-    /// Name of the file of its presence.
+    /// Name of the file of [`Self::presence`].
     pub presence_file: String,
-    /// PNG of its presence: white for 0, the ink of the pigment for 1.
+    /// PNG of the probability that the pigment is present: white for 0, the ink of the pigment for 1.
     pub presence: Vec<u8>,
-    /// Name of the file of its share.
+    /// Name of the file of [`Self::share`].
     pub share_file: String,
-    /// PNG of its share.
+    /// PNG of the share of the pigment: white for 0, the ink of the pigment for 1.
     pub share: Vec<u8>,
 }
 

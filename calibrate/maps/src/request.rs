@@ -114,7 +114,7 @@ pub enum GroundSource {
 #[cfg(feature = "files")]
 #[derive(Debug)]
 pub struct MappedScan {
-    /// The scan with its survey.
+    /// The scan with the pigments that the survey found in it.
     pub scan: SurveyedScan,
     /// Counts of the run.
     pub outcome: MapOutcome,

@@ -205,9 +205,9 @@ impl Framing {
     }
 }
 
-/// How far points reach in a picture. For an axis these are the maxima of `t z + x` and `t z - x`
-/// over all points, where x is the coordinate along the axis, z is the depth towards the viewer,
-/// and t is the tangent of the angle to the picture's edge.
+/// How much room all points need on each side of their middle, in the plane through it. A point
+/// at `x` along an axis and `z` towards the viewer needs `t z + x` on the positive side and
+/// `t z - x` on the negative one, where t is the tangent of half the angle that they may fill.
 #[derive(Debug, Clone, Copy)]
 struct Reach {
     right: [f32; 2],

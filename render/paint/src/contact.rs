@@ -73,8 +73,8 @@ impl Touch {
 
     /// Replaces [`Touch::release`].
     #[inline(always)]
-    pub(crate) fn set_release(&mut self, release: u32) {
-        self.weights = self.weights & !(0x7f << 9) | release << 9;
+    pub(crate) fn set_release(&mut self, parts_of_32: u32) {
+        self.weights = self.weights & !(0x7f << 9) | parts_of_32 << 9;
     }
 
     /// Multiplies the velocity by `left`, 0 to 1.

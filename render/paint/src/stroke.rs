@@ -313,8 +313,8 @@ pub struct Path {
 }
 
 impl Path {
-    /// A path without samples over cells of `cell_mm`, for a brush of `size_mm`. In a sub-step the
-    /// sides of this brush move by a cell or less.
+    /// An empty path for a brush of `size_mm`, over cells of `cell_mm`. We choose its sub-steps so
+    /// that in each the sides of this brush move by about a cell or less.
     ///
     /// # Errors
     /// [`StrokeError::Cell`] if `cell_mm` is not a finite number above 0.

@@ -55,7 +55,7 @@ pub struct PictureRequest {
     /// Files of the picture
     #[serde(default)]
     pub exports: ExportRequest,
-    /// Write every step to the picture into this folder, as PNG
+    /// Write the intermediate stages of the picture into this folder, as PNG
     #[serde(default)]
     pub stages: Option<PathBuf>,
     /// File and frames of an animation

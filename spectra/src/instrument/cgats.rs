@@ -205,7 +205,7 @@ impl Table {
 enum WavelengthSource {
     /// In the name of the value's field, e.g. `SPEC_400`, in nm.
     Nm(f64),
-    /// In the field before the field of the value.
+    /// In the field `SPECTRAL_NM`, just before the field of the value.
     FieldBefore,
 }
 

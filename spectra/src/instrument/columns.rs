@@ -251,8 +251,8 @@ impl Layout {
         is_row(&split(line, self.separator))
     }
 
-    /// The numbers of a line. The line must have `width` cells. If you pass 0, any number from 2 on
-    /// will do.
+    /// The numbers in the cells of a line. The line must have exactly `width` cells, or, if `width` is
+    /// 0, any count of at least two.
     pub(super) fn numbers(
         &self,
         file: &str,

@@ -155,7 +155,8 @@ pub struct Curve {
     pub caption: &'static str,
     /// Distance of two heights in mm.
     pub step_mm: f64,
-    /// Lines of heights in mm: at one place, and the mean over several.
+    /// Heights in mm along the section. The first line is a single section through the middle, the
+    /// second is the mean of many parallel sections.
     pub lines: Vec<Vec<f64>>,
 }
 

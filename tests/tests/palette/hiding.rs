@@ -1,5 +1,6 @@
-//! Hiding power, i.e. the thickness from which a film hides, and tinting strength (the tint of
-//! standard depth and a standard paint), compared with closed forms and the oils.
+//! Hiding power is the thickness from which a film hides. Tinting strength is how much K/S a paint
+//! adds to a white, also relative to a standard paint. We compare both with closed forms and the
+//! oils.
 
 use calibrate::PigmentId;
 use calibrate::evaluate::Viewing;

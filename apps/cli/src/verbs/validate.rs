@@ -30,8 +30,8 @@ pub(crate) struct Validate {
     validation: RequestOptions<ValidationRequest>,
     /// Write measured and predicted reflectances of the mixtures as JSON, for `impasto map --residuals`
     ///
-    /// Films that hide, at each wavelength, with the settings of the fit and the hashes of the files. By
-    /// them, pigment maps know how far the library errs.
+    /// The reflectances are of films that hide, at each wavelength. The file also holds the settings of the
+    /// fit and the hashes of the measurements. It tells a pigment map how far predictions of the library err.
     #[arg(long, value_name = "FILE")]
     residuals: Option<PathBuf>,
     #[command(flatten)]

@@ -184,8 +184,9 @@ def validate(
 ) -> Validation:
     """Leaves each mixture out in turn, fits the rest, and predicts it, as `impasto validate` does.
 
-    `folds` leaves out seeded groups instead; `using` names pigments, only mixtures with one of them are
-    left out. `progress` is called with each stage of the fit, and after each mixture.
+    `folds` deals the mixtures at random into this many groups (the same every time) and leaves out one
+    group at a time; `using` names pigments, only mixtures with one of them are left out. `progress` is
+    called with each stage of the fit, and after each mixture.
     """
     request = json.dumps({"fit": _request(locals()), "folds": folds, "with": list(using)})
     light = light_of(illuminant)

@@ -316,7 +316,7 @@ fn is_mesh(path: &Path) -> bool {
     ending.is_some_and(|ending| endings.contains(&ending.to_ascii_lowercase().as_str()))
 }
 
-/// A photograph as a flat model, with as many pixels as on the command line.
+/// A photograph as a flat model, [`Photograph::usual_width_px`] pixels wide.
 fn photograph(path: &Path) -> Result<Mesh, FileFailure> {
     let photograph = Photograph::open(path).map_err(|error| FileFailure::explained(&error))?;
     let (width, height) = photograph.size();

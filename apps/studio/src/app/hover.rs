@@ -52,8 +52,8 @@ impl HoveringHead {
     }
 }
 
-/// Twins of the open stroke. We paint them when it ends, because only one stroke can be open at a
-/// time.
+/// Twins of the open stroke, i.e. its symmetrical copies. We paint them when it ends, because only one
+/// stroke can be open at a time.
 #[derive(Debug)]
 pub(super) struct TwinStrokes {
     twins: Vec<Twin>,
@@ -102,7 +102,7 @@ impl TwinStrokes {
             .collect()
     }
 
-    /// Draws where the twins will be. Cells are `cell_mm` wide.
+    /// Draws the paths of the twins, the symmetrical copies of the open stroke. Cells are `cell_mm` wide.
     pub(super) fn draw(&self, painter: &Painter, placement: &Placement, cell_mm: f64) {
         for twin in &self.twins {
             let points: Vec<_> = self

@@ -24,9 +24,10 @@ pub struct PlanRequest {
     /// Smallest step of the balance in grams; no part is smaller than fifty steps, so that each is
     /// weighed to 1 %
     pub balance: f64,
-    /// Expected noise of a swatch's reflectance, as standard deviations CONSTANT,EVEN: that of the
-    /// instrument, and that of weighing, mixing and film, which is perceptually uniform [default:
-    /// 0.002 and the residual of the prior's own fit, else 0.01]
+    /// Expected noise of a swatch's reflectance as CONSTANT,EVEN, both standard deviations. CONSTANT is the
+    /// noise of the instrument, equal at every reflectance. EVEN is the noise of weighing, mixing and film.
+    /// It looks equally large at every reflectance, so it is smaller in the dark [default: 0.002 for
+    /// CONSTANT; for EVEN the residual of the prior's own fit, else 0.01]
     #[serde(serialize_with = "write_noise", deserialize_with = "read_noise")]
     #[schemars(schema_with = "noise_schema")]
     pub noise: Option<ExpectedNoise>,

@@ -230,9 +230,10 @@ pub struct Trial {
     pub truth: Vec<f64>,
     /// Shares that the method found.
     pub told: Vec<f64>,
-    /// Whether the method finds each present.
+    /// Whether the method finds each pigment or group present.
     pub present: Vec<bool>,
-    /// Probability that each is present. This is empty if the method does not give one.
+    /// Probability that each pigment or group is present. This is empty if the method does not give
+    /// one.
     pub probability: Vec<f64>,
     /// Standard deviation of each share. This is empty if the method does not give one.
     pub sd: Vec<f64>,

@@ -330,8 +330,8 @@ pub(crate) struct Work {
     /// this, because pigments of little S would otherwise seem to explain every pixel.
     sizes: Vec<f32x8>,
     inverse: Vec<f32x8>,
-    /// Products of the rows of all pairs of pigments. Only the upper half is valid. The row or lane
-    /// of a pigment is its index plus `before`.
+    /// Products of the rows of all pairs of pigments, in a row for each pigment. A row is valid only
+    /// for the pigment itself and later ones. The row or lane of a pigment is its index plus `before`.
     pub(crate) products: Vec<f32x8>,
     before: usize,
 }

@@ -167,7 +167,8 @@ pub(crate) struct Quadratic {
     pub(super) before: usize,
     /// Products by pair.
     pub(super) products: Vec<f64>,
-    /// Products by pair in lanes, of which the upper half is valid.
+    /// Products by pair in lanes, in a row for each pigment. A row is valid only for the pigment itself
+    /// and later ones.
     pub(super) rows: Vec<f32x8>,
     /// Products of each pigment with itself, in lanes.
     pub(super) own: Vec<f32x8>,

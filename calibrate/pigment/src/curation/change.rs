@@ -464,10 +464,10 @@ pub enum CurationError {
         /// File of the other library.
         file: String,
     },
-    /// K and S were found under different surfaces or film models.
+    /// K and S were fitted with different surfaces or film models.
     #[error("{file}: {what} differs, {wanted} in {first}, found `{found}`")]
     #[hint(
-        "K and S hold under the surface they were found with; fit both with one [saunderson], or use the first's: [any_surface]"
+        "K and S are valid only with the surface they were fitted with; fit both libraries with the same [saunderson], or assume the surface of the first for both: [any_surface]"
     )]
     Surface {
         /// Name of the property that differs.

@@ -148,8 +148,9 @@ impl FilmSet {
         Self::of(library, weights, films)
     }
 
-    /// Draws `count` films like [`FilmSet::hiding`] does, of optical thicknesses (K + S) d from 0.03 to 10.
-    /// Each lies over the colour of another such mixture. In half of them we lighten this colour.
+    /// Draws `count` random films, mixed like the films of [`FilmSet::hiding`], of optical thicknesses
+    /// (K + S) d from 0.03 to 10. The ground of each has the colour of another random mixture. We lighten
+    /// this colour in half of the films.
     #[must_use]
     pub fn over_grounds(
         library: &PigmentLibrary,

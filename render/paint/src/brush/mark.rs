@@ -13,8 +13,8 @@ use crate::pose::Pose;
 /// Number of sub-steps after which a resting head has settled.
 const SETTLED: usize = 8;
 
-/// Extent of the plane on each side of the pen, relative to the width of the head. Even the hair of
-/// the longest heads does not splay this far.
+/// The plane extends this far to each side of the pen, in widths of the head: farther than even the
+/// longest hair splays.
 const REACH: f64 = 4.0;
 
 /// Cells that a clean head touches on a plane.

@@ -228,8 +228,9 @@ pub struct TipLoad {
 }
 
 impl TipLoad {
-    /// The tip of a head with this paint in its last `rows` rows, over cells of `cell_mm` mm.
-    /// `paint_cell_area` is the area of a cell of the head, in cells of the canvas.
+    /// The tip of a head. `paint` covers the whole head, but only its last `rows` rows hold paint.
+    /// Cells of the canvas are `cell_mm` mm wide. `paint_cell_area` is the area of a cell of the
+    /// head, in cells of the canvas.
     #[must_use]
     pub fn of(paint: &Layer, rows: usize, cell_mm: f64, paint_cell_area: f64) -> Self {
         let width = paint.width();

@@ -64,7 +64,7 @@ pub enum PaintingError {
         slot: usize,
     },
     /// A brush cannot hold that much more paint.
-    #[error("the brush holds {most_mm:.2} mm more at most, found `{amount_mm}`")]
+    #[error("the brush has room for {most_mm:.2} mm of paint, found `{amount_mm}`")]
     #[hint("wipe or wash the brush first")]
     Overloaded {
         /// Height of the paint to load, in mm.

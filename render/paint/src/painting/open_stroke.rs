@@ -56,7 +56,8 @@ pub struct OpenStroke {
     pub(crate) from: SurfaceId,
     /// Brush of the painting that the stroke is open in.
     brush: Option<BrushId>,
-    /// The head of a tool, while the stroke is open in the painting.
+    /// The clean head of a tool that blends or takes paint, while the stroke is open in the painting.
+    /// `None` for a stroke that paints.
     clean: Option<CleanHead>,
     path: Path,
     /// Whether the head was set down.

@@ -407,9 +407,10 @@ impl KeptHead {
 /// State of a head after it was added.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Added {
-    /// The head is new, or had the name already.
+    /// No wash needed: the head was never used, or the name referred to it already.
     Ready,
-    /// The head had the name before and was used. It may have paint on it.
+    /// The name refers again to a head that had it before. The head was used, so it may have paint
+    /// on it.
     Used,
 }
 

@@ -231,7 +231,7 @@ const DETAIL: f64 = 2.0;
 
 /// Correlation of the detail of L* of two maps that tile, -1 to 1. Use this to see whether their
 /// strokes stand at the same places. Detail is L* blurred by 2 texels, less L* blurred by
-/// `spacing`, the distance of strokes.
+/// `spacing`, the distance between strokes.
 ///
 /// # Panics
 /// If the maps differ in size.

@@ -209,7 +209,8 @@ mod device_tests {
         }
     }
 
-    /// A mesh that leans away to the right, with a part before it below, and nothing on the right.
+    /// Depth of a mesh that recedes towards the right. A nearer part fills the lower quarter, and the right
+    /// quarter shows the background.
     fn mesh((width, height): (usize, usize)) -> Field<f32> {
         Field::from_values(
             width,

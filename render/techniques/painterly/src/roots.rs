@@ -130,9 +130,9 @@ impl Roots {
         self.surface.regions.sizes()
     }
 
-    /// These strokes for another density. We keep the strokes of all features below a priority.
-    /// They start where `starts` says instead of anywhere. `reach` is half the length of a stroke
-    /// in units of the model.
+    /// Keeps the strokes of the features with a priority below `priority`, in place of the strokes
+    /// kept before. They start where `starts` says, or at random if it returns `None`. `reach` is
+    /// half the length of a stroke in units of the model.
     pub(super) fn keeping(
         mut self,
         features: &Features,

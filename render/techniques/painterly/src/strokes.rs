@@ -268,7 +268,8 @@ const STRETCH: f32 = 4.0;
 /// Half the width of a splat relative to the line.
 const RADIUS: f32 = 0.8;
 
-/// Share of the width of the line, in pixels, that lies behind the outline.
+/// We place splats up to this distance inside the outline in the picture, relative to the width of
+/// the line.
 const BEHIND: f32 = 0.5;
 
 /// Greatest cosine at which a place belongs to an outline, however much the surface bends.

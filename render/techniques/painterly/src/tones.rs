@@ -135,7 +135,8 @@ impl Tones {
         self.slices[slice].tone
     }
 
-    /// How often the largest size of a map is halved for this many of its texels to a pixel.
+    /// How many times to halve the largest size of a map, so that a pixel sees about one texel. At
+    /// the largest size it sees `texels_per_px`.
     pub(super) fn halvings(&self, map: usize, texels_per_px: f32) -> usize {
         let sizes = self.slices[self.maps[map].slices.start].sizes.len();
         let mut halvings = 0;

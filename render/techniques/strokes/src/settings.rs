@@ -119,7 +119,7 @@ pub enum StrokeSettingsError {
     #[hint(if *setting == "cell_mm", "0.25 mm is usual, 0.1 mm is fine")]
     #[hint(if *setting == "tolerance", "6 is usual; 3 paints more strokes")]
     #[hint(
-        "brushes are two cells wide or more, at most 100 mm, none wider than the painting; [cell_mm] takes smaller cells"
+        "brushes are at least two cells wide, at most 100 mm, and no wider than the painting; for narrower ones set smaller cells with [cell_mm]"
     )]
     OutOfRange {
         /// Field of [`StrokeSettings`], for example `width_mm`.

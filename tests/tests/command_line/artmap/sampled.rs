@@ -428,7 +428,7 @@ fn flat_colors_show_no_strokes() {
     let output = folder.file("s.exr");
     let run = artmap(&["sample", &picture, "--output", &output]);
     assert_eq!(run.status, 1, "{}", run.err);
-    assert!(run.err.contains("the distance of strokes cannot be seen in flat"), "{}", run.err);
+    assert!(run.err.contains("the distance between strokes cannot be seen in flat"), "{}", run.err);
     let hint =
         "spacing = [[x, y], [x, y]], or give one distance in pixels for all samples with --spacing";
     assert!(run.err.contains(hint), "{}", run.err);

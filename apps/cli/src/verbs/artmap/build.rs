@@ -200,8 +200,9 @@ pub(super) struct Show {
     /// How the tones between the tiles of a map are made on the sheet
     #[arg(long, value_enum, default_value = "dissolve")]
     between: TonesBetween,
-    /// Print JSON. Samples: provenance, spacing, pigments, and of each name, size, texels,
-    /// lightness, colour, mm_per_texel, height_mm, guessed_relief. A map: as `artmap check`
+    /// Print JSON. For samples: provenance, spacing and pigments, then for each sample its name, size,
+    /// texels, lightness, colour, mm_per_texel, height_mm and guessed_relief. For a map: the JSON of
+    /// `artmap check`
     #[arg(long)]
     json: bool,
     /// Print the samples or tiles as CSV

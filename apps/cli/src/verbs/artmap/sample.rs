@@ -51,7 +51,7 @@ enum ResizedBy {
 /// writes marks to begin with.
 ///
 /// Each sample is turned until its strokes run from top to bottom, and resized until all have the
-/// distance of strokes of the median sample. Strokes should be at least 6 px apart in the picture,
+/// distance between strokes of the median sample. Strokes should be at least 6 px apart in the picture,
 /// and a passage at least four of them wide. Look at --marked first: it shows the passages.
 #[derive(Debug, Args)]
 pub(super) struct Sample {
@@ -82,11 +82,11 @@ pub(super) struct Sample {
     /// How unlike regions may be to join a passage, 0 to 10
     #[arg(long, value_name = "X", default_value_t = 1.0)]
     reach: f64,
-    /// Distance of neighbouring strokes in pixels, 1 to 1000, for samples whose marks do not state
-    /// it [default: estimated, and refused if it cannot be seen]
+    /// Distance between neighbouring strokes in pixels, 1 to 1000, for samples without a `spacing` in
+    /// the marks [default: estimated; it is an error if the strokes are too unclear for that]
     #[arg(long, value_name = "PX")]
     spacing: Option<f64>,
-    /// Directions in which samples are resized until all have the same distance of strokes
+    /// Directions in which samples are resized until all have the same distance between strokes
     #[arg(long, value_enum, default_value = "uniform")]
     density: ResizedBy,
     /// Guess the relief of a picture from its lightness: dark is deep. MM is the height from furrow to
@@ -390,7 +390,7 @@ impl Proposal<'_> {
         print_proposed(&marks, drawn, console)?;
         if !without.is_empty() {
             console.remark(format!(
-                "the distance of strokes cannot be seen in {}: mark their spacing, or leave them out",
+                "the distance between strokes cannot be seen in {}: mark their spacing, or leave them out",
                 without.join(", ")
             ))?;
         }
@@ -401,7 +401,7 @@ impl Proposal<'_> {
     }
 }
 
-/// Names of the samples for which you would have to mark the distance of strokes.
+/// Names of the samples for which you would have to mark the distance between strokes.
 fn without_spacing(
     source: &SourcePicture,
     marks: &Marks,

@@ -60,13 +60,13 @@ pub(super) struct Convert {
     amounts: Option<Amounts>,
     #[command(flatten)]
     surface: SurfaceOptions,
-    /// Title of a library from a table
+    /// Title of the new library, if it is made from a table
     #[arg(long)]
     title: Option<String>,
-    /// Licence of a library from a table
+    /// Licence of the new library, if it is made from a table
     #[arg(long)]
     licence: Option<String>,
-    /// Source of the K and S of a table
+    /// Source of the K and S, if the library is made from a table
     #[arg(long)]
     source: Option<String>,
 }
@@ -261,10 +261,10 @@ pub(super) struct Merge {
     same_unit: bool,
     #[command(flatten)]
     viewing: ViewingOptions,
-    /// Print JSON: pigments (how many), reference, common (those that several libraries have), warnings
+    /// Print JSON: pigments (how many), reference, common (those in several libraries), warnings
     #[arg(long)]
     json: bool,
-    /// Print the pigments that several libraries have as CSV
+    /// Print CSV of the pigments that occur in several of the libraries
     #[arg(long, conflicts_with = "json")]
     csv: bool,
 }
@@ -336,8 +336,8 @@ impl Merge {
 )]
 pub(super) struct Rename {
     /// The pigment library (JSON) [default: the one in IMPASTO_LIBRARY, else
-    /// the Van Gogh oils that ship], then names to change, all at once; the old name may be
-    /// abbreviated
+    /// the Van Gogh oils that ship], then pairs OLD=NEW; OLD may be abbreviated. All change at the
+    /// same time, so two names can be swapped
     #[arg(value_name = "[LIBRARY] OLD=NEW")]
     words: Vec<String>,
     /// Set a Colour Index name, such as "Ultramarine=PB29" (may be repeated); `NAME=` removes it

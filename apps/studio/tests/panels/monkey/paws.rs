@@ -179,7 +179,7 @@ impl Dice {
 const REFUSALS: [&str; 17] = [
     "is too high for more",
     "is piled as high as it can be",
-    "mm more at most, found",
+    "the brush has room for ",
     "is still wet, so it cannot leave the palette",
     "the layer has no ",
     " already",

@@ -218,7 +218,7 @@ mod tests {
         broken.color[(7, 5)][0] = f32::INFINITY;
         let whole = |spacing| marks(vec![rectangle("a", [0, 0, 60, 60], spacing)]);
         let cases = [
-            (&flat, whole(None), "the distance of strokes cannot be seen in a"),
+            (&flat, whole(None), "the distance between strokes cannot be seen in a"),
             (
                 &flat,
                 whole(Some(20.0)),

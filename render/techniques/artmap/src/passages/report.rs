@@ -15,7 +15,7 @@ pub enum StrokesSeen {
     Relief,
 }
 
-/// Where the distance of strokes comes from.
+/// Where the distance between strokes comes from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SpacingSource {
     /// Two points that you marked.

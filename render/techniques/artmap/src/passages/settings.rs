@@ -42,7 +42,7 @@ pub struct PassageSettings {
     pub reach: f64,
     /// Direction in which samples are resized.
     pub density: Density,
-    /// Distance of neighbouring strokes in pixels where the marks give none, 1 to 1000, `None`
+    /// Distance between neighbouring strokes in pixels where the marks give none, 1 to 1000. `None`
     /// estimates it.
     pub spacing: Option<f64>,
 }
@@ -169,8 +169,11 @@ pub enum PassageError {
         /// Row.
         y: usize,
     },
-    /// The distance of strokes cannot be estimated.
-    #[error("the distance of strokes cannot be seen in {}", name_list(samples, MOST_NAMES, ", "))]
+    /// The distance between strokes cannot be estimated.
+    #[error(
+        "the distance between strokes cannot be seen in {}",
+        name_list(samples, MOST_NAMES, ", ")
+    )]
     #[hint(
         "mark the middles of two neighbouring strokes: spacing = [[x, y], [x, y]], or give \
         one distance in pixels for all samples with [spacing]"
@@ -193,7 +196,7 @@ pub enum PassageError {
         sample: String,
         /// Width across the strokes in pixels.
         width_px: f64,
-        /// Distance of neighbouring strokes in pixels.
+        /// Distance between neighbouring strokes in pixels.
         spacing_px: f64,
     },
     /// The spacing of a sample is very unlike the median sample's.
@@ -205,11 +208,11 @@ pub enum PassageError {
     Unlike {
         /// Name of the sample.
         sample: String,
-        /// Its distance of strokes in pixels.
+        /// Distance between its strokes in pixels.
         spacing_px: f64,
         /// Name of the sample of median spacing.
         reference: String,
-        /// Distance of its strokes in pixels.
+        /// Distance between its strokes in pixels.
         reference_px: f64,
     },
     /// No samples can be proposed.

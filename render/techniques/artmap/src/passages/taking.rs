@@ -22,8 +22,8 @@ const MOST_SCALE: f64 = 8.0;
 /// Takes the marked samples of a picture. They are upright, have one spacing, and go from dark to
 /// light. You also get a report of each.
 ///
-/// We measure direction and distance of strokes in the lightness and, if the picture has a true
-/// relief, in the height of the paint. We use the clearer of the two.
+/// We measure the direction of strokes and the distance between them in the lightness and, if the
+/// picture has a true relief, in the height of the paint. We use the clearer of the two.
 ///
 /// The spacing is the median of the samples' spacings. If their number is even, this is the
 /// smaller one in the middle. With [`Density::Width`], `mm_per_texel` is the geometric mean of

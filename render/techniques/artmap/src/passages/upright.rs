@@ -253,7 +253,7 @@ pub(super) struct Estimate {
     pub(super) sharpness: f64,
 }
 
-/// Estimates the distance of strokes among the true pixels of `mask`. The strokes run along
+/// Estimates the distance between strokes among the true pixels of `mask`. The strokes run along
 /// `along`. If you pass false for `turned`, strokes have no direction, and we take the mean over x
 /// and y.
 ///

@@ -52,7 +52,7 @@ impl Sample {
         (self.color.width(), self.color.height())
     }
 
-    /// Number of texels that belong to the passage.
+    /// Number of texels inside [`Self::mask`], which belong to the passage of the painting.
     #[must_use]
     pub fn texels(&self) -> usize {
         self.mask.values().iter().filter(|inside| **inside).count()

@@ -82,7 +82,7 @@ impl Origin<'_> {
 }
 
 /// The hint for parts and channels that are not as we wrote them.
-const OTHER_PROGRAM: &str =
+const KEEP_AS_WRITTEN: &str =
     "another program changed the file: keep parts, sizes and channels as they were";
 
 /// A file of samples or an art map cannot be read or written.
@@ -143,7 +143,7 @@ pub enum TexelFileError {
     Library(#[from] LibraryError),
     /// A part of the file is missing or malformed.
     #[error("{file}: part `{part}` {reason}")]
-    #[hint("{OTHER_PROGRAM}")]
+    #[hint("{KEEP_AS_WRITTEN}")]
     Part {
         /// Path of the file.
         file: String,
@@ -154,7 +154,7 @@ pub enum TexelFileError {
     },
     /// A channel is missing or malformed, or one of its values is impossible.
     #[error("{file}: part `{part}`, channel `{channel}` {reason}")]
-    #[hint("{OTHER_PROGRAM}")]
+    #[hint("{KEEP_AS_WRITTEN}")]
     Channel {
         /// Path of the file.
         file: String,

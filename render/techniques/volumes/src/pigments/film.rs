@@ -141,7 +141,7 @@ impl FilmHeights {
     }
 }
 
-/// Films of volumes with their insides. Use this for single points.
+/// Adds up the heights of the films of several volumes, at single points.
 #[derive(Debug, Clone)]
 pub struct FilmSum<'a> {
     /// The films.

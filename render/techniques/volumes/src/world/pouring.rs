@@ -335,14 +335,14 @@ impl World {
     /// cells have no room for some of its paint. Returns the number of cells.
     ///
     /// # Errors
-    /// If there is no such volume, it is dry or of the grid, it holds no surface, there is no
-    /// grid, or there are too many volumes.
+    /// If there is no such volume, it is dry or already in the grid, it contains no surface, there
+    /// is no grid, or there are too many volumes.
     pub fn split(&mut self, index: usize) -> Result<usize, WorldError> {
         let count = self.volumes.len();
         let refused = |why| Err(WorldError::Volume { index, count, why });
         let Some(volume) = self.volumes.get(index) else { return refused("does not exist") };
         if volume.cell.is_some() || volume.dry {
-            return refused("is dry or of the grid already");
+            return refused("is dry or already in the grid");
         }
         if self.settings.cell == 0.0 {
             return refused("cannot be split without a grid");
@@ -353,7 +353,7 @@ impl World {
         let parts = self.held_samples(index);
         let all: u64 = parts.iter().map(|(_, samples)| samples).sum();
         if all == 0 {
-            return refused("holds no surface");
+            return refused("contains no surface");
         }
         let whole = amounts_of(&paint);
         let mut dealt: Vec<[u64; SLOTS + 1]> =

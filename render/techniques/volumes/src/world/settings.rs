@@ -142,7 +142,7 @@ pub enum WorldError {
     /// There is no such volume, or it cannot be split.
     #[error("volume {index} of {count} {why}")]
     #[hint(
-        "name a wet volume; only a volume that overlaps no other and holds surface can be split"
+        "name a wet volume; you can split it only with a grid (grid.cell), if it is not yet in the grid and contains some surface"
     )]
     Volume {
         /// Index of the volume.

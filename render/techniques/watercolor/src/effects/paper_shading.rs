@@ -15,8 +15,8 @@ use graphics::gpu::{DeviceError, Kernel, Storage, layout};
 pub struct PaperShading {
     /// Encoded sRGB of the paper, 0..1.
     pub color: [f32; 3],
-    /// Light added per unit of slope to a light of 1. 0 shows no grain. The slope is the
-    /// height to the right minus the height to the left, plus below minus above.
+    /// A slope of 1 multiplies the light by 1 + `relief`. 0 shows no grain. The slope is the height
+    /// to the right minus the height to the left, plus below minus above.
     pub relief: f32,
 }
 
