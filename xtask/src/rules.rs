@@ -97,7 +97,7 @@ pub const RULES: [Rule; 16] = [
     },
     Rule {
         name: "closures with a name, per 1,000 lines of code",
-        limit: Limit::AtMost(5.8),
+        limit: Limit::AtMost(3.0),
         mark: Some(Mark::NamedClosures),
         figure: |figures| figures.per_code(Mark::NamedClosures),
     },
@@ -109,13 +109,13 @@ pub const RULES: [Rule; 16] = [
     },
     Rule {
         name: "\"that of\", \"those of\", per 1,000 words",
-        limit: Limit::AtMost(0.3),
+        limit: Limit::AtMost(0.2),
         mark: Some(Mark::ThatOf),
         figure: |figures| figures.per_words(Mark::ThatOf),
     },
     Rule {
         name: "\"whose\", per 1,000 words",
-        limit: Limit::AtMost(0.3),
+        limit: Limit::AtMost(0.25),
         mark: Some(Mark::Whose),
         figure: |figures| figures.per_words(Mark::Whose),
     },
@@ -139,7 +139,7 @@ pub const RULES: [Rule; 16] = [
     },
     Rule {
         name: "doc comments that begin with \"What\", \"The same\", \"As\"",
-        limit: Limit::AtMost(5.0),
+        limit: Limit::AtMost(0.0),
         mark: Some(Mark::Riddles),
         figure: |figures| count(figures, Mark::Riddles),
     },
