@@ -336,7 +336,8 @@ mod tests {
         request.exports.picture = Some(file("a.png"));
         let outcome = request.run(&Task::default()).unwrap();
         assert_eq!(outcome.files, [file("a.json"), file("a.png")]);
-        assert_eq!((outcome.size, outcome.backend.as_str()), ((24, 18), "cpu"));
+        assert_eq!(outcome.size, (24, 18));
+        assert!(outcome.backend.starts_with("the processor"), "{}", outcome.backend);
         assert_eq!(outcome.pigments, ["Zinc White", "Vermilion", "Ultramarine"]);
         let (strokes, painted, separated) = strokes_of(&outcome);
         assert!(strokes > 2 && painted && !separated, "{outcome:?}");

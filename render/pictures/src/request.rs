@@ -314,7 +314,7 @@ impl From<Device> for BackendChoice {
 pub struct PictureOutcome {
     /// Width and height in pixels. Of strokes: in cells of the canvas.
     pub size: (usize, usize),
-    /// Name of the device: `cpu`, or the name of a graphics adapter.
+    /// Name of the device: `cpu` (after strokes the processor with its threads), or the name of a graphics adapter.
     pub backend: String,
     /// Numbers of the technique alone.
     #[serde(flatten)]
