@@ -10,7 +10,6 @@ use artmap::passages::Marks;
 use artmap::sample::SampleSet;
 use calibrate::Residuals;
 use calibrate::library::PigmentLibrary;
-use documents::settings::Preset;
 use graphics::camera::CameraPath;
 use graphics::picture::Photograph;
 use maps::Book;
@@ -67,7 +66,8 @@ fn a_script_of_every_action_paints_what_it_painted() {
     let at = |name: &str| folder.path().join(name).display().to_string();
     std::fs::copy(fixture("every-action.json"), at("every-action.json")).unwrap();
     succeeds(&["paint", &at("every-action.json"), "-o", &at("painting.exr"), "--backend", "cpu"]);
-    let painted = [at("painting.exr"), at("saved.exr")].map(|file| Document::open(Path::new(&file)));
+    let painted =
+        [at("painting.exr"), at("saved.exr")].map(|file| Document::open(Path::new(&file)));
     let earlier = Document::open(&fixture("painting.exr")).unwrap();
     for painted in painted {
         let painted = painted.unwrap();
@@ -82,8 +82,8 @@ fn a_painting_shows_the_picture_that_it_showed() {
     let picture = folder.path().join("painting.png");
     let painting = fixture("painting.exr").display().to_string();
     succeeds(&["relight", &painting, "-o", &picture.display().to_string()]);
-    let [found, wanted] = [picture, fixture("painting.png")]
-        .map(|file| Photograph::open(&file).unwrap());
+    let [found, wanted] =
+        [picture, fixture("painting.png")].map(|file| Photograph::open(&file).unwrap());
     assert!(found == wanted, "another picture");
 }
 
@@ -119,8 +119,7 @@ fn samples_open_and_make_the_art_map_that_they_made() {
     let made = folder.path().join("artmap.exr");
     let from = fixture("samples.exr").display().to_string();
     succeeds(&["artmap", "build", &from, "--size", "64", "-o", &made.display().to_string()]);
-    let [made, earlier] =
-        [made, fixture("artmap.exr")].map(|file| ArtMap::open(&file).unwrap());
+    let [made, earlier] = [made, fixture("artmap.exr")].map(|file| ArtMap::open(&file).unwrap());
     assert_eq!((earlier.keys.len(), earlier.paint.is_some()), (2, true));
     assert!(made == earlier, "another map");
 }
@@ -151,16 +150,14 @@ fn settings_of_every_technique_are_still_those_of_their_preset() {
     assert_eq!(settings, volumes::settings::Preset::Bleed.settings());
     let style = Style::from_toml("dabs.toml", &text("dabs.toml")).unwrap();
     assert_eq!(style, StylePreset::Dabs.settings());
-    let changed =
-        watercolor::Settings::from_toml("rough.toml", &text("rough.toml")).unwrap();
+    let changed = watercolor::Settings::from_toml("rough.toml", &text("rough.toml")).unwrap();
     assert_eq!(changed.edges.strength, 5.0);
 }
 
 #[test]
 fn scripts_of_volumes_open() {
     let script = Script::open(&fixture("village.toml")).unwrap();
-    let counts =
-        [script.regions.len(), script.pours.len(), script.lifts.len(), script.dries.len()];
+    let counts = [script.regions.len(), script.pours.len(), script.lifts.len(), script.dries.len()];
     assert_eq!((script.seconds, counts), (6.0, [2, 2, 1, 1]));
     let recorded = Script::open(&fixture("poured.toml")).unwrap();
     assert_eq!(recorded.pours.len(), 1);
