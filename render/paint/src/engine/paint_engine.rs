@@ -66,7 +66,19 @@ impl PaintEngine {
     /// With [`BackendChoice::Gpu`], [`DeviceError`] if there is no device or it cannot
     /// hold the canvas.
     pub fn open(choice: BackendChoice, floor: &Field<i32>) -> Result<OpenedEngine, DeviceError> {
-        let Some(device) = choose(choice)? else {
+        Self::open_on(choose(choice)?, choice, floor)
+    }
+
+    /// Like [`Self::open`], on a device that you opened by this `choice`. `None` is the processor.
+    ///
+    /// # Errors
+    /// With [`BackendChoice::Gpu`], [`DeviceError`] if the device cannot hold the canvas.
+    pub fn open_on(
+        device: Option<Device>,
+        choice: BackendChoice,
+        floor: &Field<i32>,
+    ) -> Result<OpenedEngine, DeviceError> {
+        let Some(device) = device else {
             return Ok(OpenedEngine { engine: Self::on_cpu(floor.clone()), device_error: None });
         };
         match Self::on_device(device, floor) {
