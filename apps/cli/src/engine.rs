@@ -74,6 +74,11 @@ impl EngineOptions {
         Ok(opened.engine)
     }
 
+    /// The device of a request.
+    pub(crate) fn device(&self) -> Device {
+        self.backend.device()
+    }
+
     /// Memory for undo in bytes.
     pub(crate) fn undo_bytes(&self) -> u64 {
         self.undo_memory << 20

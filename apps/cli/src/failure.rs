@@ -123,7 +123,10 @@ fn message_of(error: &(dyn Error + 'static)) -> String {
 
 /// The option of a setting.
 fn option_of(name: &str) -> String {
-    format!("--{}", name.replace('_', "-"))
+    match name {
+        "brushes_mm" => "--brushes".to_owned(),
+        name => format!("--{}", name.replace('_', "-")),
+    }
 }
 
 /// Adds a message to an error that says what was attempted.

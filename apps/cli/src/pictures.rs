@@ -192,7 +192,7 @@ pub(crate) fn painted(
     console: &mut Console<'_>,
 ) -> Result<PictureOutcome> {
     let job = heard(console, |task, listener| Ok(request.open(task, listener)?))?;
-    let compute = without_noise(console, || Compute::choose(request.device.into()))??;
+    let compute = without_noise(console, || Compute::choose(job.device().into()))??;
     heard(console, |task, listener| Ok(job.paint(compute, task, listener)?))
 }
 

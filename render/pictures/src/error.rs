@@ -28,6 +28,7 @@ use paint::{
 };
 use painterly::{CompositingError, PainterError, RegionsError, guides::GuidesError};
 use spectra::ViewingError;
+use strokes::{StrokePainterError, StrokeSettingsError};
 use watercolor::WatercolorError;
 
 /// A setting that has another value than it takes, or does not fit the others.
@@ -196,6 +197,9 @@ pub enum PictureError {
     /// The subject cannot be painted in the brushwork of a map.
     #[error(transparent)]
     Painterly(#[from] PainterError),
+    /// The photograph cannot be painted in strokes, or separated into pigments.
+    #[error(transparent)]
+    Strokes(Box<StrokePainterError>),
     /// Layers for compositing cannot be made.
     #[error(transparent)]
     Compositing(#[from] CompositingError),
@@ -251,5 +255,25 @@ impl From<BackingTextError> for PictureError {
             BackingTextError::Text(error) => Self::Setting(error.at("over").into()),
             error => Self::Paper(error),
         }
+    }
+}
+
+impl From<StrokePainterError> for PictureError {
+    fn from(error: StrokePainterError) -> Self {
+        match error {
+            StrokePainterError::Settings(error) => error.into(),
+            error => Self::Strokes(Box::new(error)),
+        }
+    }
+}
+
+impl From<StrokeSettingsError> for PictureError {
+    fn from(error: StrokeSettingsError) -> Self {
+        let StrokeSettingsError::OutOfRange { setting, value, least, most } = error else {
+            return Self::Strokes(Box::new(error.into()));
+        };
+        let reason = format!("takes {least} to {most}, found `{value}`");
+        let hint = error.hint();
+        SettingError { hint, ..SettingError::of(setting, reason, "") }.into()
     }
 }

@@ -6,13 +6,15 @@ use graphics::compute::Compute;
 use crate::error::PictureError;
 use crate::exports::{Listener, Note};
 use crate::painterly_job::PainterlyJob;
-use crate::request::{PictureOutcome, PictureRequest, TechniqueRequest};
+use crate::request::{Device, PictureOutcome, PictureRequest, TechniqueRequest};
+use crate::strokes_job::StrokesJob;
 use crate::watercolor_job::WatercolorJob;
 
 /// A picture that can be painted: the request was checked, and its outputs can be written.
 #[derive(Debug)]
 pub struct PictureJob {
     work: Work,
+    device: Device,
     /// Notes on the checks of the request.
     notes: Vec<Note>,
 }
@@ -21,6 +23,7 @@ pub struct PictureJob {
 enum Work {
     Watercolor(Box<WatercolorJob>),
     Painterly(Box<PainterlyJob>),
+    Strokes(Box<StrokesJob>),
 }
 
 impl PictureRequest {
@@ -51,11 +54,12 @@ impl PictureRequest {
     /// cannot be painted, and if `task` is cancelled.
     pub fn run(&self, task: &Task) -> Result<PictureOutcome, PictureError> {
         let job = self.open(task, &mut |_| {})?;
-        job.paint(Compute::choose(self.device.into())?, task, &mut |_| {})
+        let compute = Compute::choose(job.device().into())?;
+        job.paint(compute, task, &mut |_| {})
     }
 
-    /// Does all work of [`Self::run`] before it opens a device. Use this if you want to open the device yourself,
-    /// or to hear of each file when it is written.
+    /// Does all work of [`Self::run`] before it opens a device. Use this if you want to open the device yourself
+    /// ([`PictureJob::device`]), or to hear of each file when it is written.
     ///
     /// # Errors
     /// The errors of [`Self::run`].
@@ -76,12 +80,25 @@ impl PictureRequest {
             TechniqueRequest::Painterly(own) => {
                 Work::Painterly(Box::new(PainterlyJob::open(self, own, task, &mut kept)?))
             }
+            TechniqueRequest::Strokes(own) => {
+                Work::Strokes(Box::new(StrokesJob::open(self, own, task, &mut kept)?))
+            }
         };
-        Ok(PictureJob { work, notes })
+        let device = match &work {
+            Work::Strokes(job) if !job.paints() => Device::Cpu,
+            _ => self.device,
+        };
+        Ok(PictureJob { work, device, notes })
     }
 }
 
 impl PictureJob {
+    /// The device to paint on: the one of the request, or the processor if nothing is painted.
+    #[must_use]
+    pub fn device(&self) -> Device {
+        self.device
+    }
+
     /// Paints the picture on `compute` and writes its files.
     ///
     /// # Errors
@@ -92,7 +109,7 @@ impl PictureJob {
         task: &Task,
         listener: &mut Listener<'_>,
     ) -> Result<PictureOutcome, PictureError> {
-        let Self { work, mut notes } = self;
+        let Self { work, mut notes, .. } = self;
         let mut kept = |note: Note| {
             notes.push(note.clone());
             listener(note);
@@ -100,6 +117,7 @@ impl PictureJob {
         let summary = match work {
             Work::Watercolor(job) => job.paint(compute, task, &mut kept)?,
             Work::Painterly(job) => job.paint(compute, task, &mut kept)?,
+            Work::Strokes(job) => job.paint(compute, task, &mut kept)?,
         };
         let mut outcome = PictureOutcome {
             size: summary.size,
@@ -128,10 +146,13 @@ impl PictureJob {
 mod tests {
     use std::path::Path;
 
+    use calibrate::library::PigmentLibrary;
     use documents::hint::Explain;
+    use graphics::{export::png8, field::Field};
+    use paint::strokes::StrokeScript;
 
     use super::*;
-    use crate::request::{Device, PainterlyRequest, TechniqueOutcome, WatercolorRequest};
+    use crate::request::{PainterlyRequest, StrokesRequest, TechniqueOutcome, WatercolorRequest};
 
     fn sphere(technique: TechniqueRequest, folder: &Path) -> PictureRequest {
         let mut request = PictureRequest::new("shape:sphere", technique);
@@ -206,5 +227,175 @@ mod tests {
         task.cancel();
         let ended = request.run(&task).unwrap_err();
         assert!(matches!(ended, PictureError::Watercolor(_) | PictureError::Cancelled(_)));
+    }
+
+    /// A photograph of 12 x 9 pixels, red on the left and blue on the right, on a canvas of 24 x 18 cells.
+    fn dusk(own: StrokesRequest, folder: &Path) -> PictureRequest {
+        let colors = (0..12 * 9).map(|pixel| match pixel % 12 {
+            0..6 => [0.3, 0.08, 0.08, 1.0],
+            _ => [0.1, 0.1, 0.25, 1.0],
+        });
+        let picture = Field::from_values(12, 9, colors.collect());
+        let photograph = folder.join("dusk.png");
+        std::fs::write(&photograph, png8(&picture, 1.0).unwrap().bytes).unwrap();
+        let brushes_mm = match own.brushes_mm.is_empty() {
+            true => vec![2.0, 4.0],
+            false => own.brushes_mm,
+        };
+        let own = StrokesRequest { width_mm: 12.0, cell_mm: 0.5, brushes_mm, ..own };
+        let mut request = PictureRequest::new(photograph, TechniqueRequest::Strokes(own));
+        request.pigments.palette = vec!["Zinc White, Vermilion".to_owned(), "Ultramarine".into()];
+        request.device = Device::Cpu;
+        request
+    }
+
+    /// The numbers of the strokes of an outcome: their count, whether there is a colour error of the painting,
+    /// and one of the separation.
+    fn strokes_of(outcome: &PictureOutcome) -> (u64, bool, bool) {
+        let TechniqueOutcome::Strokes { strokes, levels, error, separation_error } =
+            &outcome.technique
+        else {
+            panic!("{outcome:?}");
+        };
+        assert_eq!(levels.iter().map(|level| level.strokes).sum::<u64>(), *strokes);
+        (*strokes, error.is_some(), separation_error.is_some())
+    }
+
+    fn script(path: &Path) -> StrokeScript {
+        StrokeScript::from_json("a script", &std::fs::read(path).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn strokes_that_cannot_be_painted_are_refused_and_nothing_is_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = |name: &str| Some(folder.path().join(name));
+        let own = StrokesRequest { separate: file("maps"), ..StrokesRequest::default() };
+        let request = dusk(own.clone(), folder.path());
+        type Change = fn(&mut PictureRequest);
+        let changes: [(Change, &str, &str); 9] = [
+            (|r| r.view.width = Some(64), "width is for other techniques", "`width_mm`"),
+            (|r| r.view.camera = Some("9,0".into()), "camera is for", "leave it out"),
+            (|r| r.style.preset = Some("oil".into()), "preset is for", "`tolerance = 3`"),
+            (|r| r.style.set = vec!["tolerance=3".into()], "set is for", "`tolerance = 3`"),
+            (|r| r.stages = Some("stages".into()), "stages is for", "`strokes_out`"),
+            (|r| r.animation.frames = Some("f".into()), "frames is for", "`strokes_out`"),
+            (|r| r.pigments.illuminant = "A".into(), "illuminant takes D65", "relight"),
+            (|r| r.exports.picture = Some(r.subject.clone()), "an input file", "another file name"),
+            (|r| r.pigments.palette = vec!["Mauvein".into()], "`Mauvein`", ""),
+        ];
+        for (change, message, hint) in changes {
+            let mut changed = request.clone();
+            change(&mut changed);
+            let refused = refused(&changed);
+            assert!(refused.0.contains(message) && refused.1.contains(hint), "{refused:?}");
+        }
+        let picture = file("a.png");
+        for (own, exported, message) in [
+            (StrokesRequest { separate: None, ..own.clone() }, None, "nothing would be written"),
+            (
+                StrokesRequest { tolerance: 0.1, ..own.clone() },
+                None,
+                "tolerance takes 0.5 to 100, found `0.1`",
+            ),
+            (
+                StrokesRequest { brushes_mm: vec![0.5], ..own.clone() },
+                None,
+                "brushes_mm takes 1 to 12, found `0.5`",
+            ),
+            (
+                StrokesRequest { ground: "wood".to_owned(), ..own.clone() },
+                None,
+                "ground takes linen, paper, panel, found `wood`",
+            ),
+            (
+                StrokesRequest { thin: true, ..own.clone() },
+                picture.clone(),
+                "thin works only with separate: strokes overlap and must hide",
+            ),
+            (
+                StrokesRequest { strokes_out: picture.clone(), ..own.clone() },
+                picture.clone(),
+                "a.png: two outputs have this file name",
+            ),
+        ] {
+            let mut request = dusk(own, folder.path());
+            request.exports.picture = exported;
+            let (found, hint) = refused(&request);
+            assert!(found.ends_with(message) && !hint.is_empty(), "{found} for {message}: {hint}");
+        }
+        let names = std::fs::read_dir(folder.path()).unwrap();
+        assert_eq!(names.count(), 1, "only the photograph is there");
+    }
+
+    #[test]
+    fn a_photograph_is_painted_and_its_script_names_the_library() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = |name: &str| folder.path().join(name);
+        let own = StrokesRequest { strokes_out: Some(file("a.json")), ..StrokesRequest::default() };
+        let mut request = dusk(own, folder.path());
+        request.exports.picture = Some(file("a.png"));
+        let outcome = request.run(&Task::default()).unwrap();
+        assert_eq!(outcome.files, [file("a.json"), file("a.png")]);
+        assert_eq!(outcome.size, (24, 18));
+        assert!(outcome.backend.starts_with("the processor"), "{}", outcome.backend);
+        assert_eq!(outcome.pigments, ["Zinc White", "Vermilion", "Ultramarine"]);
+        let (strokes, painted, separated) = strokes_of(&outcome);
+        assert!(strokes > 2 && painted && !separated, "{outcome:?}");
+        let first = script(&file("a.json"));
+        assert_eq!(first.title, "dusk");
+        assert_eq!(first.library, Some(PigmentLibrary::van_gogh_oils().title));
+
+        let oils = "../../measurements/van-gogh-oils.pigments.json";
+        let oils = Path::new(env!("CARGO_MANIFEST_DIR")).join(oils);
+        request.pigments.library = Some(oils.clone());
+        request.exports.picture = None;
+        let again = request.run(&Task::default()).unwrap();
+        assert_eq!((again.files, again.technique), (vec![file("a.json")], outcome.technique));
+        let second = script(&file("a.json"));
+        assert_eq!(second.library, Some(oils.display().to_string()));
+        assert_eq!(second.actions, first.actions);
+    }
+
+    #[test]
+    fn a_separation_alone_paints_nothing_and_needs_no_device() {
+        let folder = tempfile::tempdir().unwrap();
+        let maps = folder.path().join("maps");
+        let own = StrokesRequest {
+            separate: Some(maps.clone()),
+            thin: true,
+            ..StrokesRequest::default()
+        };
+        let mut request = dusk(own.clone(), folder.path());
+        request.device = Device::Gpu;
+        let job = request.open(&Task::default(), &mut |_| {}).unwrap();
+        assert_eq!(job.device(), Device::Cpu);
+        assert!(!maps.exists(), "the checks write nothing");
+        let outcome = request.run(&Task::default()).unwrap();
+        assert_eq!((outcome.size, &outcome.files), ((24, 18), &vec![maps.clone()]));
+        assert_eq!(strokes_of(&outcome), (0, false, true));
+        assert!(maps.join("separation.vermilion.png").is_file());
+
+        let both =
+            StrokesRequest { thin: false, strokes_out: Some(folder.path().join("a.json")), ..own };
+        let both = dusk(both, folder.path()).run(&Task::default()).unwrap();
+        assert_eq!(both.files, [maps, folder.path().join("a.json")]);
+        let (strokes, painted, separated) = strokes_of(&both);
+        assert!(strokes > 0 && painted && separated, "{both:?}");
+    }
+
+    #[test]
+    fn an_input_in_the_folder_of_the_separation_is_kept() {
+        let folder = tempfile::tempdir().unwrap();
+        let own = StrokesRequest {
+            separate: Some(folder.path().to_owned()),
+            ..StrokesRequest::default()
+        };
+        let mut request = dusk(own, folder.path());
+        let photograph = folder.path().join("separation.rebuilt.png");
+        std::fs::rename(&request.subject, &photograph).unwrap();
+        request.subject = photograph;
+        let (message, _) = refused(&request);
+        assert!(message.ends_with("is an input file, which is never overwritten"), "{message}");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "nothing was written");
     }
 }

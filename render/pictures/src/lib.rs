@@ -40,6 +40,7 @@
 //! | write the files of a painting | [`ExportRequest::open`] |
 //! | frames that an interrupted run continues | [`AnimationRequest::open`] |
 //! | a subject with its cameras | [`ViewRequest::subject`] |
+//! | a photograph in strokes, or separated into pigments | [`StrokesRequest`] |
 //!
 //! Modules are ordered by dependence: each uses only modules declared above it.
 
@@ -52,6 +53,7 @@ mod request;
 mod brushwork;
 mod watercolor_job;
 mod painterly_job;
+mod strokes_job;
 mod job;
 
 pub use animation::{Animation, AnimationRequest, FramesDigest, Recording, animation_format};
@@ -62,8 +64,8 @@ pub use exports::{
 };
 pub use job::PictureJob;
 pub use request::{
-    Device, PainterlyRequest, PictureOutcome, PictureRequest, PigmentRequest, TechniqueOutcome,
-    TechniqueRequest, WatercolorRequest,
+    Device, PainterlyRequest, PictureOutcome, PictureRequest, PigmentRequest, StrokesRequest,
+    TechniqueOutcome, TechniqueRequest, WatercolorRequest,
 };
 pub use style::{
     StyleRequest, listed, name_in_recipe, palette, pigment_names, text_of, toml_of_change,

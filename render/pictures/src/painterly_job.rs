@@ -17,7 +17,7 @@ use graphics::{
 use paint::{
     document::{Lighting, Slots},
     engine::PaintEngine,
-    ground::{GroundKind, GroundSpec},
+    ground::GroundSpec,
     layer::LayerRef,
     light::Light,
     painting::Painting,
@@ -33,7 +33,7 @@ use crate::brushwork::Maps;
 use crate::error::{PictureError, SettingError};
 use crate::exports::{Listener, Note, PX_MM};
 use crate::request::{OpenOutputs, PainterlyRequest, PictureRequest, Summary, TechniqueOutcome};
-use crate::style::palette;
+use crate::style::{canvas_of, library_of, palette};
 use crate::subject::{self, MOST_FRAMES, PictureViews, check_range};
 
 /// A subject with brushwork, materials and outputs that were checked.
@@ -318,25 +318,9 @@ fn materials(
             Some((Arc::new(library), slots))
         }
     };
-    let kind = GroundKind::CANVASES.into_iter().find(|kind| kind.name() == own.ground);
-    let Some(kind) = kind else {
-        let names = GroundKind::CANVASES.map(GroundKind::name).join(", ");
-        let reason = format!("takes {names}, found `{}`", own.ground);
-        return Err(SettingError::of("ground", reason, "try [ground=panel]").into());
-    };
+    let ground = canvas_of(&own.ground)?.spec(1);
     let illuminant = chosen.illuminant.clone();
-    Ok(Some(Materials { title: request.title(), ground: kind.spec(1), pigments, illuminant }))
-}
-
-/// The library at `path`, or the oils that ship.
-fn library_of(
-    path: Option<&Path>,
-    listener: &mut Listener<'_>,
-) -> Result<PigmentLibrary, PictureError> {
-    let Some(path) = path else { return Ok(PigmentLibrary::van_gogh_oils()) };
-    let library = PigmentLibrary::open(path)?;
-    listener(Note::Library { path: path.to_owned(), pigments: library.pigments.len() });
-    Ok(library)
+    Ok(Some(Materials { title: request.title(), ground, pigments, illuminant }))
 }
 
 /// A folder that a number of frames can be written to.

@@ -5,8 +5,10 @@
 use std::path::PathBuf;
 
 use graphics::gpu::BackendChoice;
+use paint::separation::ColorErrors;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use strokes::{LevelReport, StrokeSettings};
 
 use crate::animation::{Animation, AnimationRequest};
 use crate::error::{PictureError, SettingError};
@@ -122,6 +124,8 @@ pub enum TechniqueRequest {
     Watercolor(WatercolorRequest),
     /// A model or photograph is covered with strokes of an art map
     Painterly(PainterlyRequest),
+    /// A photograph is painted stroke by stroke with calibrated pigments, or separated into them
+    Strokes(StrokesRequest),
 }
 
 /// Paper and masks of a watercolour.
@@ -184,12 +188,90 @@ impl Default for PainterlyRequest {
     }
 }
 
+/// Canvas and brushes of a photograph that is painted in strokes, or separated into pigments.
+///
+/// This separates a photograph into three oils, and paints nothing:
+///
+/// ```
+/// use documents::Task;
+/// use documents::request::request_from_json;
+/// use graphics::{export::png8, field::Field};
+/// use pictures::{PictureRequest, TechniqueOutcome};
+///
+/// let folder = tempfile::tempdir()?;
+/// let photograph = folder.path().join("dusk.png");
+/// let picture = Field::filled(12, 9, [0.3, 0.1, 0.2, 1.0]);
+/// std::fs::write(&photograph, png8(&picture, 1.0)?.bytes)?;
+/// let json = format!(
+///     r#"{{
+///         "subject": {photograph:?},
+///         "technique": {{"strokes": {{"width_mm": 6, "cell_mm": 0.5, "separate": {:?}}}}},
+///         "pigments": {{"palette": ["Zinc White, Vermilion, Ultramarine"]}}
+///     }}"#,
+///     folder.path().join("maps")
+/// );
+/// let outcome = request_from_json::<PictureRequest>(&json)?.run(&Task::default())?;
+/// assert_eq!(outcome.files, [folder.path().join("maps")]);
+/// assert_eq!(outcome.pigments, ["Zinc White", "Vermilion", "Ultramarine"]);
+/// let TechniqueOutcome::Strokes { strokes: 0, separation_error: Some(error), .. } =
+///     outcome.technique
+/// else {
+///     panic!("strokes were painted");
+/// };
+/// println!("colour error of the pigments: {:.1} CIEDE2000", error.mean);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(description = "Canvas and brushes of a photograph in strokes")]
+pub struct StrokesRequest {
+    /// Width of the painting in mm, 5 to 5000. Its height follows the photograph's shape
+    pub width_mm: f64,
+    /// Width of a cell in mm, 0.02 to 5. Smaller cells show finer relief, half the width takes four
+    /// times as long
+    pub cell_mm: f64,
+    /// Ground to paint on: linen, paper or panel
+    pub ground: String,
+    /// Widths of the brushes in mm, used from the broadest to the finest [default: 16, 8, 4, 2 and 1 on
+    /// 200 mm, and in proportion]
+    pub brushes_mm: Vec<f64>,
+    /// Difference in CIELAB above which an area is painted over, 0.5 to 100. Less takes more strokes
+    pub tolerance: f64,
+    /// Seed of all random choices
+    pub seed: u64,
+    /// Write the strokes as a script (.json) that paints the same, bit for bit
+    pub strokes_out: Option<PathBuf>,
+    /// Write a map of each pigment, the picture they make and its colour error into this folder.
+    /// Nothing is painted unless you ask for another file
+    pub separate: Option<PathBuf>,
+    /// Let the ground show through in `separate`, which reaches lighter and purer colours. You cannot
+    /// paint in the same run
+    pub thin: bool,
+}
+
+impl Default for StrokesRequest {
+    fn default() -> Self {
+        let settings = StrokeSettings::default();
+        Self {
+            width_mm: settings.width_mm,
+            cell_mm: settings.cell_mm,
+            ground: settings.ground.name().to_owned(),
+            brushes_mm: settings.brushes_mm,
+            tolerance: settings.tolerance,
+            seed: settings.seed,
+            strokes_out: None,
+            separate: None,
+            thin: !settings.hides,
+        }
+    }
+}
+
 /// Pigments that a picture is painted with, and the light in which it is seen.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct PigmentRequest {
-    /// Library of the pigments. Without it a watercolor has no pigments. A painting then has the pigments of its
-    /// map or, if you name a palette, the Van Gogh oils that ship
+    /// Library of the pigments. Without it a watercolor has no pigments. A painting of maps then has the pigments
+    /// of its map or, if you name a palette, the Van Gogh oils that ship. Strokes then have these oils
     pub library: Option<PathBuf>,
     /// Names of up to eight pigments of the library [default: the ones nearest to the picture's
     /// colours]
@@ -230,9 +312,9 @@ impl From<Device> for BackendChoice {
 /// A picture that was painted, and its files.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PictureOutcome {
-    /// Width and height in pixels.
+    /// Width and height in pixels. Of strokes: in cells of the canvas.
     pub size: (usize, usize),
-    /// Name of the device: `cpu`, or the name of a graphics adapter.
+    /// Name of the device: `cpu` (after strokes the processor with its threads), or the name of a graphics adapter.
     pub backend: String,
     /// Numbers of the technique alone.
     #[serde(flatten)]
@@ -274,11 +356,22 @@ pub enum TechniqueOutcome {
         /// Number of regions with brushwork of their own.
         regions: usize,
     },
+    /// A photograph in strokes, or separated into pigments.
+    Strokes {
+        /// Number of strokes of all brushes. This is 0 if the photograph is only separated.
+        strokes: u64,
+        /// Report of each brush, from the broadest to the finest.
+        levels: Vec<LevelReport>,
+        /// Colour error of the painting at the scale of the finest brush, if it was painted.
+        error: Option<ColorErrors>,
+        /// Colour error of the separation, if its maps were written.
+        separation_error: Option<ColorErrors>,
+    },
 }
 
 /// Results of a finished job, without the notes of its run.
 pub(crate) struct Summary {
-    /// Width and height in pixels.
+    /// Width and height in pixels, or in cells.
     pub(crate) size: (usize, usize),
     /// Name of the device.
     pub(crate) backend: String,
@@ -314,7 +407,12 @@ mod tests {
     #[test]
     fn a_request_is_the_same_after_json() {
         let watercolor = TechniqueRequest::Watercolor(WatercolorRequest::default());
-        for request in [full(), PictureRequest::new("a photo.jpg", watercolor)] {
+        let brushes_mm = vec![8.0, 0.5];
+        let strokes = StrokesRequest { brushes_mm, thin: true, ..StrokesRequest::default() };
+        let strokes = TechniqueRequest::Strokes(strokes);
+        let [watercolor, strokes] =
+            [watercolor, strokes].map(|technique| PictureRequest::new("a photo.jpg", technique));
+        for request in [full(), watercolor, strokes] {
             let json = serde_json::to_string(&request).unwrap();
             assert_eq!(request_from_json::<PictureRequest>(&json).unwrap(), request, "{json}");
         }

@@ -1,5 +1,5 @@
-//! How a subject is painted: the settings of a technique by preset, file and single changes, and the pigments of
-//! a library by their names.
+//! How a subject is painted: the settings of a technique by preset, file and single changes, the pigments of a
+//! library by their names, and the ground.
 
 use std::path::{Path, PathBuf};
 
@@ -7,12 +7,14 @@ use calibrate::library::PigmentLibrary;
 use documents::settings::{Preset, changed};
 use paint::{
     document::{Slots, palette_slots},
+    ground::GroundKind,
     technique::Technique,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{PictureError, SettingError};
+use crate::exports::{Listener, Note};
 
 /// The settings of a technique.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -87,6 +89,27 @@ pub fn text_of(path: &Path) -> Result<String, PictureError> {
     String::from_utf8(documents::file::read(path)?).map_err(|error| {
         let byte = error.utf8_error().valid_up_to();
         PictureError::Encoding { file: path.display().to_string(), byte }
+    })
+}
+
+/// The library at `path`, or the oils that ship.
+pub(crate) fn library_of(
+    path: Option<&Path>,
+    listener: &mut Listener<'_>,
+) -> Result<PigmentLibrary, PictureError> {
+    let Some(path) = path else { return Ok(PigmentLibrary::van_gogh_oils()) };
+    let library = PigmentLibrary::open(path)?;
+    listener(Note::Library { path: path.to_owned(), pigments: library.pigments.len() });
+    Ok(library)
+}
+
+/// The ground that the key `ground` names.
+pub(crate) fn canvas_of(name: &str) -> Result<GroundKind, SettingError> {
+    let kind = GroundKind::CANVASES.into_iter().find(|kind| kind.name() == name);
+    kind.ok_or_else(|| {
+        let names = GroundKind::CANVASES.map(GroundKind::name).join(", ");
+        let reason = format!("takes {names}, found `{name}`");
+        SettingError::of("ground", reason, "try [ground=panel]")
     })
 }
 

@@ -7,33 +7,30 @@ use std::path::{Path, PathBuf};
 
 use calibrate::library::PigmentLibrary;
 use clap::Args;
-use documents::hint::Explain;
 use documents::{counted, counted_as};
 use graphics::export::{PictureFormat, picture_file};
 use paint::document::Document;
-use paint::export::save_files;
 use paint::file;
 use paint::ground::GroundKind;
 use paint::painting::Painting;
+use paint::separation::ColorErrors;
 use paint::session::{PaintingSession, ReplayError, ReplayReport};
 use paint::strokes::{Action, ScriptLibrary, SideTable, StrokeScript};
-use pictures::{gamut_remark, pigment_names};
-use serde_json::{Map, Value, json};
-use strokes::{
-    ColorErrors, LevelReport, PaintedPhotograph, Photograph, SeparatedFiles, StrokePainter,
-    StrokePainterError, StrokeSettings, StrokeSettingsError, Subject,
+use pictures::{
+    PictureOutcome, PictureRequest, PigmentRequest, StrokesRequest, TechniqueOutcome,
+    TechniqueRequest, gamut_remark,
 };
+use serde_json::{Map, Value, json};
 
 use crate::animation::{TimelapseOptions, TimelapseReport};
 use crate::console::Console;
 use crate::engine::EngineOptions;
-use crate::failure::{Context, Failure, Result, with_options};
-use crate::library_choice::{ChosenLibrary, quietly_chosen};
+use crate::failure::{Context, Failure, Result};
+use crate::library_choice::{named_or_default, quietly_chosen};
 use crate::output::{Output, OutputFolder, create_folder};
-use crate::pictures::{Exports, grounds};
+use crate::pictures::{Exports, grounds, painted};
 use crate::progress::Progress;
 use crate::readings::library;
-use crate::technique::{painted, prepared};
 
 /// Paint a script of strokes, or a photograph, with calibrated pigments
 ///
@@ -87,11 +84,25 @@ impl Paint {
         match script {
             Some(script) => self.script(&script, console),
             None => {
-                let Self { library: path, photograph, engine, exports, json, .. } = self;
-                let ChosenLibrary { library, path } = quietly_chosen(path.as_deref(), console)?;
-                photograph.run(library, path, &engine, exports, json, console)
+                let outcome = painted(&self.request()?, console)?;
+                report(&outcome, self.json, console)
             }
         }
+    }
+
+    /// The picture of these options, with the library that you name, else the default one.
+    fn request(&self) -> Result<PictureRequest> {
+        let library = match &self.library {
+            None => named_or_default(None)?.map(|(path, _)| path),
+            named => named.clone(),
+        };
+        let PhotographOptions { from, palette, .. } = &self.photograph;
+        let technique = TechniqueRequest::Strokes(self.photograph.strokes());
+        let pigments =
+            PigmentRequest { library, palette: palette.clone(), ..PigmentRequest::default() };
+        let request = PictureRequest::new(from.clone().unwrap_or_default(), technique);
+        let exports = self.exports.request();
+        Ok(PictureRequest { pigments, exports, device: self.engine.device(), ..request })
     }
 
     fn script(self, path: &Path, console: &mut Console<'_>) -> Result<()> {
@@ -444,123 +455,34 @@ impl PhotographOptions {
         self.from.is_some()
     }
 
-    pub(super) fn run(
-        self,
-        library: PigmentLibrary,
-        library_path: Option<PathBuf>,
-        engine: &EngineOptions,
-        exports: Exports,
-        as_json: bool,
-        console: &mut Console<'_>,
-    ) -> Result<()> {
-        let from = self.from.clone().unwrap_or_default();
-        let paints = exports.any() || self.strokes_out.is_some();
-        if !paints && self.separate.is_none() {
-            return Err(Failure::usage(
-                "nothing would be written",
-                "add --picture painting.png, --output painting.exr, or --separate FOLDER",
-            ));
-        }
-        let settings = self.settings(&library);
-        settings.check().map_err(settings_failure)?;
-        if paints && self.thin {
-            return Err(Failure::usage(
-                "--thin works only with --separate: strokes overlap and must hide",
-                "leave --thin out, or separate first and paint in a second run",
-            ));
-        }
-        let photograph = Photograph::open(&from)?;
-        settings.canvas(photograph.size()).map_err(settings_failure)?;
-        let inputs: Vec<PathBuf> = std::iter::once(from).chain(library_path.clone()).collect();
-        let exports = exports.open(&inputs)?;
-        let strokes_out = self.strokes_out.as_ref().map(|path| Output::open(path, &inputs));
-        let strokes_out = strokes_out.transpose()?;
-        let subject = Subject { photograph: &photograph, library: &library };
-        let painter = prepared::<StrokePainter>(subject, &settings, console);
-        let mut painter = painter.map_err(painter_failure)?;
-        if let Some(folder) = &self.separate {
-            let separated = painter.separate()?;
-            save_files(folder, &separated.files)?;
-            console.wrote(folder)?;
-            if !paints {
-                return report_separation(&separated, painter.pigments(), as_json, console);
-            }
-        }
-        let engine = engine.engine(&painter.ground().height, console)?;
-        let mut painted = painted(&mut painter, engine, console)?;
-        if let Some(path) = library_path {
-            painted.script.library = Some(path.display().to_string());
-        }
-        if let Some(output) = strokes_out {
-            output.write(painted.script.to_json()?, console)?;
-        }
-        exports.write(painted.painting_mut(), console)?;
-        report(&painted, painter.pigments(), as_json, console)
-    }
-
-    /// Settings of the painter.
-    fn settings(&self, library: &PigmentLibrary) -> StrokeSettings {
-        let from = self.from.as_deref().and_then(|from| from.file_stem());
-        StrokeSettings {
-            title: from.map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default(),
+    /// Canvas, brushes and further files of these options.
+    fn strokes(&self) -> StrokesRequest {
+        StrokesRequest {
             width_mm: self.width_mm,
             cell_mm: self.cell_mm,
-            ground: self.ground,
-            palette: pigment_names(&self.palette, library),
+            ground: self.ground.name().to_owned(),
             brushes_mm: self.brushes.clone(),
             tolerance: self.tolerance,
             seed: self.seed,
-            hides: !self.thin,
+            strokes_out: self.strokes_out.clone(),
+            separate: self.separate.clone(),
+            thin: self.thin,
         }
     }
 }
 
-/// Converts an error of the painter, naming the option if a setting is out of range.
-fn painter_failure(error: StrokePainterError) -> Failure {
-    match error {
-        StrokePainterError::Settings(error) => settings_failure(error),
-        error => error.into(),
-    }
-}
-
-/// Converts an error of the settings, naming the option if one is out of range.
-fn settings_failure(error: StrokeSettingsError) -> Failure {
-    let hint = error.hint().map(|hint| with_options(&hint)).unwrap_or_default();
-    let StrokeSettingsError::OutOfRange { setting, value, least, most } = error else {
-        return Failure::usage(error.to_string(), hint);
+/// Prints the summary of a photograph: of the painting, or of the separation if nothing was painted.
+fn report(outcome: &PictureOutcome, as_json: bool, console: &mut Console<'_>) -> Result<()> {
+    let PictureOutcome { size: (width, height), backend, technique, pigments, .. } = outcome;
+    let TechniqueOutcome::Strokes { levels, error, separation_error, .. } = technique else {
+        return Ok(());
     };
-    let option = match setting {
-        "brushes_mm" => "--brushes".to_owned(),
-        setting => format!("--{}", setting.replace('_', "-")),
+    let Some(error) = error else {
+        return report_separation(separation_error.as_ref(), pigments, as_json, console);
     };
-    Failure::usage(format!("{option} takes {least} to {most}, found `{value}`"), hint)
-}
-
-fn report_separation(
-    separated: &SeparatedFiles,
-    pigments: &[String],
-    as_json: bool,
-    console: &mut Console<'_>,
-) -> Result<()> {
-    if as_json {
-        return console.json(&json!({"palette": pigments, "error": separated.error}));
-    }
-    console.line(format!("separated into {}", pigments.join(", ")))?;
-    console.line(format!("colour error (CIEDE2000): {}", error_summary(&separated.error)))
-}
-
-fn report(
-    painted: &PaintedPhotograph,
-    pigments: &[String],
-    as_json: bool,
-    console: &mut Console<'_>,
-) -> Result<()> {
-    let PaintedPhotograph { session, levels, error, .. } = painted;
-    let bounds = session.canvas().bounds();
-    let backend = session.canvas().backend();
     if as_json {
         return console.json(&json!({
-            "canvas": [bounds.width, bounds.height],
+            "canvas": [width, height],
             "backend": backend,
             "palette": pigments,
             "levels": levels,
@@ -568,15 +490,16 @@ fn report(
         }));
     }
     console.line(format!(
-        "{} x {} cells on {backend}, painted with {}",
-        bounds.width,
-        bounds.height,
+        "{width} x {height} cells on {backend}, painted with {}",
         pigments.join(", ")
     ))?;
-    for LevelReport { shape, size_mm, strokes, mean_error, .. } in levels {
+    for level in levels {
         console.line(format!(
-            "{shape} of {size_mm} mm: {}, then a mean colour error of {mean_error:.2} at its scale",
-            counted(*strokes, "stroke")
+            "{} of {} mm: {}, then a mean colour error of {:.2} at its scale",
+            level.shape,
+            level.size_mm,
+            counted(level.strokes, "stroke"),
+            level.mean_error
         ))?;
     }
     let finest_mm = levels.last().map_or(0.0, |level| level.size_mm);
@@ -584,6 +507,20 @@ fn report(
         "colour error at the scale of the {finest_mm} mm brush (CIEDE2000): {}",
         error_summary(error)
     ))
+}
+
+fn report_separation(
+    error: Option<&ColorErrors>,
+    pigments: &[String],
+    as_json: bool,
+    console: &mut Console<'_>,
+) -> Result<()> {
+    let Some(error) = error else { return Ok(()) };
+    if as_json {
+        return console.json(&json!({"palette": pigments, "error": error}));
+    }
+    console.line(format!("separated into {}", pigments.join(", ")))?;
+    console.line(format!("colour error (CIEDE2000): {}", error_summary(error)))
 }
 
 /// Formats colour errors in one line.

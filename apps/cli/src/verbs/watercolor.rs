@@ -92,7 +92,7 @@ fn print(outcome: &PictureOutcome, as_json: bool, console: &mut Console<'_>) -> 
     let PictureOutcome { size: (width, height), backend, technique, pigments, .. } = outcome;
     let regions = match technique {
         TechniqueOutcome::Watercolor { regions } => *regions,
-        TechniqueOutcome::Painterly { .. } => None,
+        TechniqueOutcome::Painterly { .. } | TechniqueOutcome::Strokes { .. } => None,
     };
     if as_json {
         return console.json(&json!({
