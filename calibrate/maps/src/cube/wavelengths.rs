@@ -119,9 +119,9 @@ mod tests {
     #[test]
     fn a_wrong_unit_is_refused_with_the_better_one() {
         let error = nm(&[400.0, 700.0], Some("Micrometers")).unwrap_err();
-        assert!(error.ends_with("no Micrometers: these look like nm"), "{error}");
+        assert!(error.ends_with("are not Micrometers: these look like nm"), "{error}");
         let error = nm(&[0.4, 0.7], Some("nm")).unwrap_err();
-        assert!(error.ends_with("no nm: these look like micrometres"), "{error}");
+        assert!(error.ends_with("are not nm: these look like micrometres"), "{error}");
     }
 
     #[test]
