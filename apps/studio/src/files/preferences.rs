@@ -361,6 +361,19 @@ mod tests {
     }
 
     #[test]
+    fn preferences_of_an_earlier_version_are_written_as_they_were() {
+        let earlier = include_str!("../../../../tests/fixtures/formats/preferences.json");
+        let (preferences, failures, folder) = read(earlier);
+        assert!(failures.is_empty(), "{failures:?}");
+        assert_eq!((preferences.autosave_seconds, &*preferences.tools.brush), (45, "flat"));
+        let path = folder.path().join("preferences.json");
+        preferences.write(&path).unwrap();
+        let [written, earlier] = [std::fs::read_to_string(path).unwrap(), earlier.to_owned()]
+            .map(|text| serde_json::from_str::<Value>(&text).unwrap());
+        assert_eq!(written, earlier);
+    }
+
+    #[test]
     fn preferences_survive_writing_and_reading() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("new").join("preferences.json");
