@@ -78,7 +78,7 @@ fn histogram(subject: &Subject<'_>) -> Figure {
         name: "errors",
         title: "Colour errors",
         caption: &format!(
-            "How many samples have which error, {}. The error of mixtures left out is that to expect of a mixture nobody measured. Samples with a pigment whose K and S are not measurement are not counted.",
+            "How many samples have which error, {}. The error of mixtures left out is that to expect of a mixture nobody measured. Samples with a pigment whose K and S were not measured are not counted.",
             subject.light()
         ),
         alt: "Histograms of colour errors, with mean and ninetieth percentile.",
@@ -294,7 +294,7 @@ fn samples_figure(
         name: &name,
         title: &format!("Measured and fitted reflectance of every sample{part}"),
         caption: &format!(
-            "Dots are measured, lines fitted; worst sample first, its recipe below its name. The number is the colour error in CIEDE2000 ({}); the patches show the measured and the fitted colour. A star marks a recipe with a pigment whose K and S are not measurement.",
+            "Dots are measured, lines fitted; worst sample first, its recipe below its name. The number is the colour error in CIEDE2000 ({}); the patches show the measured and the fitted colour. A star marks a recipe with a pigment whose K and S were not measured.",
             subject.light()
         ),
         alt: &format!(

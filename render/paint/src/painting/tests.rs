@@ -365,7 +365,7 @@ fn a_rag_takes_more_with_pressure_strength_and_passes_and_never_from_below() {
     assert!(dry.dry_in(0, dry.bounds()).unwrap() == layer, "dry paint came off");
 }
 
-/// Paint in mm³ that a rag takes, and the height in mm that stays on its way.
+/// Paint in mm3 that a rag takes, and the height in mm that stays on its way.
 fn rubbed(strength: f64, pressure: f64, passes: usize) -> (f64, f64) {
     let mut painting = on_cpu(PANEL, 0.1);
     let brush = loaded(&mut painting, HeadShape::Flat, 6.0);
