@@ -3,11 +3,10 @@
 use std::sync::Arc;
 
 use super::coloring::{Coloring, SubjectKind};
-use super::painter::{Brushwork, Painter, PainterError};
+use super::painter::{Brushwork, PainterError};
 use super::places::{Detail, Directions, NORMAL_ROUNDS, Subject, Surface, colors};
 use super::regions::RegionMap;
 use super::settings::{Settings, ToneSource};
-use artmap::map::ArtMap;
 use glam::Vec3;
 use graphics::mesh::{DirectionField, DirectionSettings, Guide, Mesh};
 use graphics::surface::PackedMesh;
@@ -23,53 +22,8 @@ const MORE: f32 = 2.0;
 /// a stroke, in radians.
 const BEND: f32 = 0.6;
 
-impl Painter {
-    /// Paints a mesh, from any camera, in the brushwork of an art map. This lays the map out and
-    /// finds the strokes, since neither depends on the view. For example:
-    ///
-    /// ```
-    /// use artmap::map::ArtMap;
-    /// use graphics::camera::Framing;
-    /// use graphics::mesh::Mesh;
-    /// use painterly::{Painter, Settings};
-    /// # fn example(map: &ArtMap) -> Result<(), Box<dyn std::error::Error>> {
-    /// let mesh = Mesh::torus_knot(5000);
-    /// let camera = Framing::default().fit(&mesh.positions);
-    /// let mut painter = Painter::of_model(&mesh, map, &Settings::default())?;
-    /// let painted = painter.paint(&camera, (320, 240), 0.0)?;
-    /// assert_eq!(painted.color.width(), 320);
-    /// # Ok(())
-    /// # }
-    /// ```
-    ///
-    /// # Errors
-    /// [`PainterError`] for a mesh that cannot be drawn, a map without tiles, and settings out
-    /// of their ranges.
-    pub fn of_model(mesh: &Mesh, map: &ArtMap, settings: &Settings) -> Result<Self, PainterError> {
-        Self::of_model_with(mesh, &Brushwork::of(map), &[], settings)
-    }
-
-    /// Paints a mesh with several maps, each for some materials of the mesh, and with directions
-    /// that strokes must have.
-    ///
-    /// # Errors
-    /// The errors of [`Self::of_model`], [`PainterError::Regions`] for regions that the mesh does
-    /// not have, and [`PainterError::Directions`] for guides that do not lie on the mesh.
-    pub fn of_model_with(
-        mesh: &Mesh,
-        brushwork: &Brushwork<'_>,
-        guides: &[Guide],
-        settings: &Settings,
-    ) -> Result<Self, PainterError> {
-        settings.valid()?;
-        mesh.check()?;
-        brushwork.check()?;
-        let subject = subject(mesh, brushwork, guides, settings)?;
-        Self::new(subject, &brushwork.art_maps(), settings)
-    }
-}
-
-fn subject(
+/// The mesh as a painter takes it, with guides for its strokes.
+pub(super) fn subject(
     mesh: &Mesh,
     brushwork: &Brushwork<'_>,
     guides: &[Guide],
@@ -134,11 +88,13 @@ mod tests;
 
 #[cfg(test)]
 mod painting_tests {
+    use artmap::map::ArtMap;
     use std::sync::Arc;
 
     use artmap::sample::{PaintOfSamples, TexelPaint};
     use graphics::camera::Framing;
     use graphics::field::Field;
+    use graphics::mesh::SampleModel;
     use paint::amount::mm_from_quanta;
     use paint::document::Document;
     use paint::ground::GroundKind;
@@ -146,6 +102,7 @@ mod painting_tests {
     use pigment::{PigmentId, PigmentLibrary};
     use rayon::ThreadPoolBuilder;
 
+    use super::super::painter::Painter;
     use super::super::passes::amounts;
     use super::super::regions::{Region, RegionArea, Regions};
     use super::super::test_scenes::map;
@@ -291,7 +248,7 @@ mod painting_tests {
         let region = Region { map: Some("b".to_owned()), ..Region::new("fruit", area) };
         let regions = Regions { list: vec![region], ..Regions::default() };
         let brushwork = Brushwork { maps: vec![("a", &first), ("b", &second)], regions };
-        let mesh = Mesh::still_life(3000);
+        let mesh = SampleModel::StillLife.mesh(3000);
         let camera = Framing::default().fit(&mesh.positions);
         let mut painter = Painter::of_model_with(&mesh, &brushwork, &[], &settings()).unwrap();
         assert!(painter.paint(&camera, (40, 30), 0.0).is_ok());
@@ -308,6 +265,7 @@ mod baseline_tests {
     use graphics::mesh::SampleModel;
     use graphics::tile::Rect;
 
+    use super::super::painter::Painter;
     use super::super::settings::Offsets;
     use super::super::test_scenes::map;
     use super::tests::{TURNED, front, lit_with_the_model, popping_of};
@@ -364,6 +322,7 @@ mod strange_tests {
     use graphics::camera::{Camera, Framing};
     use graphics::mesh::{GridSize, Material, SampleModel, Triangle};
 
+    use super::super::painter::Painter;
     use super::super::passes::PaintedPicture;
     use super::super::test_scenes::map;
     use super::tests::flat;
@@ -544,6 +503,7 @@ mod device_tests {
     use graphics::camera::Framing;
     use graphics::compute::Compute;
 
+    use super::super::painter::Painter;
     use super::super::passes::painted;
     use super::super::settings::{ColorSource, ColorSpace};
     use super::super::test_scenes::map;

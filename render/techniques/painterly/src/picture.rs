@@ -4,7 +4,6 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use artmap::map::ArtMap;
 use glam::{Vec2, Vec3};
 use graphics::camera::PictureView;
 use graphics::encoding::lab_from_linear;
@@ -20,7 +19,7 @@ use spectra::color::Rgb;
 
 use super::coloring::{Coloring, SubjectKind};
 use super::guides::{GuideSample, Guides, GuidesError};
-use super::painter::{Brushwork, Painter, PainterError};
+use super::painter::{Brushwork, PainterError};
 use super::places::{Detail, Directions, NORMAL_ROUNDS, Subject, Surface, interpolated};
 use super::regions::{RegionMap, Regions};
 use super::settings::{Settings, ToneSource};
@@ -38,54 +37,8 @@ const TENSOR: f64 = 0.6;
 /// because the picture is always seen at one size.
 const MORE: f32 = 1.02;
 
-impl Painter {
-    /// Paints a photograph or another picture in the brushwork of an art map. This lays the map out
-    /// and finds the strokes. For example:
-    ///
-    /// ```
-    /// use artmap::map::ArtMap;
-    /// use graphics::camera::PictureView;
-    /// use painterly::{Painter, Settings};
-    /// use graphics::picture::Photograph;
-    /// # fn example(map: &ArtMap, photograph: &Photograph) -> Result<(), Box<dyn std::error::Error>> {
-    /// let mut painter = Painter::of_picture(photograph, map, &Settings::default())?;
-    /// let camera = PictureView::of(photograph.size()).camera();
-    /// let painted = painter.paint(&camera, (640, 480), 0.0)?;
-    /// assert_eq!(painted.color.width(), 640);
-    /// # Ok(())
-    /// # }
-    /// ```
-    ///
-    /// # Errors
-    /// [`PainterError`] for a map without tiles and settings out of their ranges.
-    pub fn of_picture(
-        picture: &Photograph,
-        map: &ArtMap,
-        settings: &Settings,
-    ) -> Result<Self, PainterError> {
-        Self::of_picture_with(picture, &Brushwork::of(map), &PictureForm::default(), settings)
-    }
-
-    /// Paints a picture with several maps, each for some regions of the picture, and with a form.
-    /// You can give, for example, depth, flow or guides.
-    ///
-    /// # Errors
-    /// The errors of [`Self::of_picture`], and [`PainterError::Regions`] for regions that pictures
-    /// cannot have.
-    pub fn of_picture_with(
-        picture: &Photograph,
-        brushwork: &Brushwork<'_>,
-        form: &PictureForm,
-        settings: &Settings,
-    ) -> Result<Self, PainterError> {
-        settings.valid()?;
-        brushwork.check()?;
-        let subject = subject(picture, brushwork, form, settings)?;
-        Self::new(subject, &brushwork.art_maps(), settings)
-    }
-}
-
-fn subject(
+/// The picture as a painter takes it, with its form.
+pub(super) fn subject(
     picture: &Photograph,
     brushwork: &Brushwork<'_>,
     form: &PictureForm,
@@ -253,6 +206,7 @@ mod flow_tests {
 
     use glam::{DMat2, DVec2};
 
+    use super::super::painter::Painter;
     use super::super::test_scenes::map;
     use super::tests::{photograph, view};
     use super::*;
@@ -496,10 +450,12 @@ fn at_strokes(photograph: &Photograph, cells: f32) -> Picture {
 
 #[cfg(test)]
 mod tests {
+    use super::super::painter::Painter;
     use super::super::regions::{Region, RegionArea};
     use super::super::settings::{ColorSource, Offsets};
     use super::super::test_scenes::map;
     use super::*;
+    use artmap::map::ArtMap;
     use graphics::camera::{Camera, PictureView};
     use graphics::encoding::lab_from_linear;
     use graphics::export::frame_png;

@@ -1,3 +1,4 @@
+use artmap::map::ArtMap;
 use artmap::measures::{Texture, co_occurrence_error, contrast, stroke_length};
 use glam::Vec2;
 use graphics::camera::{Camera, Framing};
@@ -16,6 +17,7 @@ use graphics::distant_light::DistantLight;
 use graphics::field::Field;
 use graphics::surface::Model;
 
+use super::super::painter::Painter;
 use super::super::passes::PaintedPicture;
 use super::super::settings::{ColorSource, LightWith, Offsets};
 use super::super::splats::StrokeSplat;

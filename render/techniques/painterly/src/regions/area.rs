@@ -201,6 +201,8 @@ fn within(points: &[[f32; 2]], at: Vec2) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use graphics::mesh::SampleModel;
+
     use super::*;
     use crate::regions::Region;
 
@@ -233,7 +235,7 @@ mod tests {
 
     #[test]
     fn materials_are_regions_of_models_by_name() {
-        let mesh = Mesh::village(1500);
+        let mesh = SampleModel::Village.mesh(1500);
         let own = |name: &str| {
             let mut region = Region::new("a", RegionArea::Material(name.to_owned()));
             region.map = Some("n".to_owned());
