@@ -8,7 +8,7 @@ mod adapter;
 mod device;
 mod target;
 mod recording;
-mod drawing;
+mod submission;
 
 pub use adapter::{Adapter, BackendChoice, DeviceError, Kind, Limits, adapters, best};
 pub use device::{Buffer, Device, choose};

@@ -1,21 +1,191 @@
-//! Draws triangles into targets, counts faces in the stencil, and adds the values of faces to
-//! buffers.
+//! Submits recorded commands to the driver: runs kernels, draws triangles into targets, counts
+//! faces in the stencil, and adds the values of faces to buffers.
+
+use std::collections::BTreeMap;
 
 use super::adapter::DeviceError;
 use super::device::{Buffer, Device};
 use super::pipelines::{
-    RasterPipeline, RasterShader, ScatterPipeline, ScatterShader, StencilPipeline, StencilShader,
-    TEXEL_BYTES, bind_group,
+    Kernel, Pipeline, RasterPipeline, RasterShader, ScatterPipeline, ScatterShader,
+    StencilPipeline, StencilShader, Storage, TEXEL_BYTES, bind_group,
 };
-use super::recording::{Draw, List, ScatterDraw, StencilDraw};
+use super::recording::{Command, Draw, List, Recording, ScatterDraw, StencilDraw};
 use super::target::StencilTarget;
+
+/// Name of a kernel and numbers of its buffers. Dispatches with the same key share a bind group.
+type BindGroupKey = (&'static str, Vec<u64>);
+
+impl Device {
+    /// Compiles `kernel` unless this was done before. [`Self::submit`] does this for each kernel.
+    /// If you call it earlier, the first submission does not wait for the compiler.
+    ///
+    /// # Errors
+    /// [`DeviceError::Refused`] if the driver rejects the kernel.
+    pub fn prepare(&mut self, kernel: &'static Kernel) -> Result<(), DeviceError> {
+        if self.pipelines.contains_key(kernel.name) {
+            return Ok(());
+        }
+        let pipeline = self.compile(
+            || format!("kernel `{}`", kernel.name),
+            |device| Pipeline::compile(device, kernel),
+        )?;
+        self.check(kernel.name)?;
+        self.pipelines.insert(kernel.name, pipeline);
+        Ok(())
+    }
+
+    /// Submits the recorded commands in their order and empties the recording. This does not wait
+    /// until they are done.
+    ///
+    /// # Errors
+    /// [`DeviceError::Lost`] if the device was lost, [`DeviceError::Refused`] if the driver
+    /// rejects a command of this or an earlier submission.
+    ///
+    /// # Panics
+    /// If a kernel was recorded with fewer or more buffers than it declares.
+    pub fn submit(&mut self, recording: &mut Recording) -> Result<(), DeviceError> {
+        let submitted = self.submit_all(recording);
+        recording.clear();
+        submitted
+    }
+
+    fn submit_all(&mut self, recording: &Recording) -> Result<(), DeviceError> {
+        self.check("a submission")?;
+        if recording.is_empty() {
+            return Ok(());
+        }
+        let mut longest = 0;
+        for command in &recording.commands {
+            let parameters = match command {
+                Command::Dispatch { kernel, .. } => {
+                    self.prepare(kernel)?;
+                    kernel.parameters
+                }
+                Command::Draw(draw) => {
+                    self.prepare_raster(draw.shader, draw.front_only)?;
+                    draw.shader.parameters
+                }
+                Command::Stencil(draw) => {
+                    self.prepare_stencil(draw.shader)?;
+                    draw.shader.parameters
+                }
+                Command::Scatter(draw) => {
+                    self.prepare_scatter(draw.shader)?;
+                    draw.shader.parameters
+                }
+                Command::Copy { .. } => continue,
+            };
+            longest = longest.max(parameters.bytes);
+        }
+        let parameters = self.parameters.take();
+        let bytes = recording.parameters.len() + longest;
+        let parameters = self.filled("parameters", parameters, &recording.parameters, bytes)?;
+        let batch = self.batch.take();
+        let batch = self.filled("a batch", batch, &recording.batch, recording.batch.len())?;
+        let commands = self.encode(recording, &parameters, &batch);
+        (self.parameters, self.batch) = (Some(parameters), Some(batch));
+        let index = self.queue.submit([commands]);
+        self.follow(index)
+    }
+
+    /// A buffer of at least `bytes` that starts with `content`. This is `found` if it is large
+    /// enough, else a new one.
+    fn filled(
+        &mut self,
+        what: &'static str,
+        found: Option<Buffer>,
+        content: &[u8],
+        bytes: usize,
+    ) -> Result<Buffer, DeviceError> {
+        let bytes = bytes as u64;
+        let buffer = match found {
+            Some(buffer) if buffer.inner.size() >= bytes => buffer,
+            _ => {
+                let enlarged = (bytes + bytes / 2).min(self.adapter().limits.binding_bytes);
+                self.buffer(what, enlarged.max(bytes))?
+            }
+        };
+        if !content.is_empty() {
+            self.queue.write_buffer(&buffer.inner, 0, content);
+        }
+        Ok(buffer)
+    }
+
+    fn encode(
+        &self,
+        recording: &Recording,
+        parameters: &Buffer,
+        batch: &Buffer,
+    ) -> wgpu::CommandBuffer {
+        let mut encoder = self.inner.create_command_encoder(&Default::default());
+        let mut bind_groups: BTreeMap<BindGroupKey, wgpu::BindGroup> = BTreeMap::new();
+        let mut pass: Option<wgpu::ComputePass<'static>> = None;
+        for command in &recording.commands {
+            match command {
+                Command::Copy { from, to, bytes } => {
+                    pass = None;
+                    encoder.copy_buffer_to_buffer(&from.inner, 0, &to.inner, 0, *bytes);
+                }
+                Command::Draw(draw) => {
+                    pass = None;
+                    self.encode_draw(&mut encoder, draw, parameters);
+                }
+                Command::Stencil(draw) => {
+                    pass = None;
+                    self.encode_stencil(&mut encoder, draw, parameters);
+                }
+                Command::Scatter(draw) => {
+                    pass = None;
+                    self.encode_scatter(&mut encoder, draw, parameters);
+                }
+                Command::Dispatch { kernel, buffers, parameters: start, groups } => {
+                    let pipeline = &self.pipelines[kernel.name];
+                    let all = storage_buffers(kernel, buffers, batch);
+                    let numbers = all.iter().map(|buffer| buffer.number).collect();
+                    let group = bind_groups.entry((kernel.name, numbers)).or_insert_with(|| {
+                        bind_group(
+                            &self.inner,
+                            kernel.name,
+                            &pipeline.layout,
+                            (&parameters.inner, kernel.parameters.bytes),
+                            all.iter().map(|buffer| &buffer.inner),
+                        )
+                    });
+                    let pass = pass.get_or_insert_with(|| {
+                        encoder.begin_compute_pass(&Default::default()).forget_lifetime()
+                    });
+                    pass.set_pipeline(&pipeline.compute);
+                    pass.set_bind_group(0, &*group, &[*start]);
+                    pass.dispatch_workgroups(groups[0], groups[1], groups[2]);
+                }
+            }
+        }
+        drop(pass);
+        encoder.finish()
+    }
+}
+
+fn storage_buffers<'a>(
+    kernel: &Kernel,
+    buffers: &'a [Buffer],
+    batch: &'a Buffer,
+) -> Vec<&'a Buffer> {
+    let expected = kernel.storage.iter().filter(|&&storage| storage != Storage::Batch).count();
+    assert_eq!(buffers.len(), expected, "buffers of {}", kernel.name);
+    let mut own = buffers.iter();
+    let all = kernel.storage.iter().filter_map(|storage| match storage {
+        Storage::Batch => Some(batch),
+        _ => own.next(),
+    });
+    all.collect()
+}
 
 impl Device {
     /// Compiles `shader` unless this was done before.
     ///
     /// # Errors
     /// [`DeviceError::Refused`] if the driver rejects the shader.
-    pub(super) fn prepare_raster(
+    fn prepare_raster(
         &mut self,
         shader: &'static RasterShader,
         front_only: bool,
@@ -33,12 +203,7 @@ impl Device {
     }
 
     /// Encodes the drawing of triangles and the copy of the picture into a buffer.
-    pub(super) fn encode_draw(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        draw: &Draw,
-        parameters: &Buffer,
-    ) {
+    fn encode_draw(&self, encoder: &mut wgpu::CommandEncoder, draw: &Draw, parameters: &Buffer) {
         let Draw { shader, target, .. } = draw;
         let pipeline = &self.raster_pipelines[&(shader.name, draw.front_only)];
         let group = bind_group(
@@ -104,10 +269,7 @@ impl Device {
     ///
     /// # Errors
     /// [`DeviceError::Refused`] if the driver rejects the shader.
-    pub(super) fn prepare_stencil(
-        &mut self,
-        shader: &'static StencilShader,
-    ) -> Result<(), DeviceError> {
+    fn prepare_stencil(&mut self, shader: &'static StencilShader) -> Result<(), DeviceError> {
         if self.stencil_pipelines.contains_key(shader.name) {
             return Ok(());
         }
@@ -124,10 +286,7 @@ impl Device {
     ///
     /// # Errors
     /// [`DeviceError::Refused`] if the driver rejects the shader.
-    pub(super) fn prepare_scatter(
-        &mut self,
-        shader: &'static ScatterShader,
-    ) -> Result<(), DeviceError> {
+    fn prepare_scatter(&mut self, shader: &'static ScatterShader) -> Result<(), DeviceError> {
         if self.scatter_pipelines.contains_key(shader.name) {
             return Ok(());
         }
@@ -142,7 +301,7 @@ impl Device {
 
     /// Encodes three steps: draws the depth of the scene if the draw has one, counts faces behind
     /// it, and copies the stencil into the rows of the target.
-    pub(super) fn encode_stencil(
+    fn encode_stencil(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         draw: &StencilDraw,
@@ -173,7 +332,7 @@ impl Device {
         copy_stencil(encoder, target);
     }
 
-    pub(super) fn encode_scatter(
+    fn encode_scatter(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         draw: &ScatterDraw,
