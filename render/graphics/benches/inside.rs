@@ -10,7 +10,7 @@ use graphics::camera::{Camera, Framing};
 use graphics::compute::{Compute, Image};
 use graphics::field::Field;
 use graphics::gpu::BackendChoice;
-use graphics::mesh::{Mesh, Triangle};
+use graphics::mesh::{Mesh, SampleModel, Triangle};
 use graphics::surface::{
     ClosedSurfaces, Count, Crossings, Fragment, InsideCounter, Model, PackedMesh, VisibilityBuffer,
     WeighedCount, visible,
@@ -30,7 +30,7 @@ struct Scene {
 
 impl Scene {
     fn with_balls(count: usize) -> Self {
-        let mesh = Mesh::still_life(60_000);
+        let mesh = SampleModel::StillLife.mesh(60_000);
         let [low, high] = mesh.bounds();
         let radius = (high - low).max_element() / 12.0 * 0.8;
         let ball = Mesh::sphere(320);

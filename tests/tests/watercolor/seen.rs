@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use documents::hint::{Explain, Fault};
 use glam::Vec3;
 use graphics::camera::{Camera, CameraPath, Framing};
-use graphics::mesh::{Material, Mesh, Triangle};
+use graphics::mesh::{Material, Mesh, SampleModel, Triangle};
 use graphics::surface::{
     Fragment, NO_TRIANGLE, Rasteriser, Sides, VisibilityBuffer, position_at, visible,
 };
@@ -312,7 +312,7 @@ fn the_whole_box_is_framed_from_every_side() {
 
 #[test]
 fn the_closest_camera_has_all_places_and_no_more() {
-    for mesh in [Mesh::torus_knot(2000), Mesh::still_life(2000)] {
+    for mesh in [Mesh::torus_knot(2000), SampleModel::StillLife.mesh(2000)] {
         let extent = |camera: &Camera, aspect: f32| {
             let clips = mesh.positions.iter().map(|&place| {
                 let clip = camera.clip_from_model(aspect) * Vec3::from(place).extend(1.0);

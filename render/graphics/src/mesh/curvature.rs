@@ -33,6 +33,28 @@ pub struct Curvature {
 }
 
 impl Curvature {
+    /// Principal curvatures of every vertex of a mesh, from the change of the normals along the
+    /// edges (Rusinkiewicz, "Estimating curvatures and their derivatives on triangle meshes",
+    /// 2004).
+    ///
+    /// Vertices with the same position count as one, so seams do not show. The normals of the mesh
+    /// are first averaged with their neighbours `rounds` times. Use 0 for a fine model, and 1 to 3
+    /// if you see facets or roughness. Every number is finite for a mesh that passes
+    /// [`Mesh::check`].
+    ///
+    /// # Panics
+    /// If a triangle has a vertex that does not exist, or there are fewer normals than positions.
+    #[must_use]
+    pub fn of_mesh(mesh: &Mesh, rounds: usize) -> Vec<Self> {
+        let places = Places::of(mesh, rounds);
+        let normals = places.normals.par_iter();
+        let planes: Vec<_> = normals.map(|&normal| TangentPlane::of_normal(normal)).collect();
+        let shapes = place_shapes(&places, &planes);
+        let pairs = shapes.par_iter().zip(&planes);
+        let curvatures: Vec<_> = pairs.map(|(shape, plane)| Self::new(shape, plane)).collect();
+        places.of_vertex.iter().map(|&place| curvatures[place as usize]).collect()
+    }
+
     /// Curvature from the tensor of a place in its tangent plane.
     fn new(shape: &PlaceShape, plane: &TangentPlane) -> Self {
         let ShapeTensor { mean, difference } = shape.tensor;
@@ -51,29 +73,6 @@ impl Curvature {
             along_greatest: single(along_greatest),
             known: shape.area > 0.0,
         }
-    }
-}
-
-impl Mesh {
-    /// Principal curvatures of every vertex, from the change of the normals along the edges
-    /// (Rusinkiewicz, "Estimating curvatures and their derivatives on triangle meshes", 2004).
-    ///
-    /// Vertices with the same position count as one, so seams do not show. The normals of the mesh
-    /// are first averaged with their neighbours `rounds` times. Use 0 for a fine model, and 1 to 3
-    /// if you see facets or roughness. Every number is finite for a mesh that passes
-    /// [`Mesh::check`].
-    ///
-    /// # Panics
-    /// If a triangle has a vertex that does not exist, or there are fewer normals than positions.
-    #[must_use]
-    pub fn curvatures(&self, rounds: usize) -> Vec<Curvature> {
-        let places = Places::of(self, rounds);
-        let normals = places.normals.par_iter();
-        let planes: Vec<_> = normals.map(|&normal| TangentPlane::of_normal(normal)).collect();
-        let shapes = place_shapes(&places, &planes);
-        let pairs = shapes.par_iter().zip(&planes);
-        let curvatures: Vec<_> = pairs.map(|(shape, plane)| Curvature::new(shape, plane)).collect();
-        places.of_vertex.iter().map(|&place| curvatures[place as usize]).collect()
     }
 }
 
@@ -467,7 +466,7 @@ mod tests {
     /// least curvature, in degrees.
     fn errors(mesh: &Mesh, known: impl Fn(Vec3) -> ([f32; 2], Vec3), radius: f32) -> [f32; 2] {
         let mut worst = [0.0_f32; 2];
-        for (curvature, &position) in mesh.curvatures(0).iter().zip(&mesh.positions) {
+        for (curvature, &position) in Curvature::of_mesh(mesh, 0).iter().zip(&mesh.positions) {
             let ([least, greatest], along) = known(Vec3::from(position));
             let off = (curvature.least - least).abs().max((curvature.greatest - greatest).abs());
             worst[0] = worst[0].max(off / greatest.abs());
@@ -515,7 +514,7 @@ mod tests {
     fn a_bowl_seen_from_inside_has_negative_curvature() {
         let mut mesh = Mesh::sphere(2000);
         mesh.normals.iter_mut().for_each(|normal| *normal = normal.map(|value| -value));
-        for curvature in mesh.curvatures(0) {
+        for curvature in Curvature::of_mesh(&mesh, 0) {
             assert!((curvature.greatest + 1.0).abs() < 0.02, "{curvature:?}");
         }
     }
@@ -524,7 +523,9 @@ mod tests {
     fn a_turned_mesh_has_the_turned_curvatures() {
         let turn = Quat::from_scaled_axis(Vec3::new(0.7, -1.9, 0.4));
         for mesh in [torus(3000, 1.0, 0.4), Mesh::torus_knot(5000)] {
-            let pairs = mesh.curvatures(1).into_iter().zip(turned(&mesh, turn).curvatures(1));
+            let pairs = Curvature::of_mesh(&mesh, 1)
+                .into_iter()
+                .zip(Curvature::of_mesh(&turned(&mesh, turn), 1));
             for (before, after) in pairs {
                 let wanted = turn * Vec3::from(before.along_least);
                 let found = Vec3::from(after.along_least);
@@ -539,8 +540,8 @@ mod tests {
     fn seams_do_not_show() {
         let whole = Mesh::torus_knot(3000);
         let apart = ragged(&whole);
-        let whole_curvatures = whole.curvatures(2);
-        let apart_curvatures = apart.curvatures(2);
+        let whole_curvatures = Curvature::of_mesh(&whole, 2);
+        let apart_curvatures = Curvature::of_mesh(&apart, 2);
         let corners = whole.triangles.iter().flat_map(|triangle| triangle.corners);
         for (corner, apart) in corners.zip(&apart_curvatures) {
             assert_eq!(whole_curvatures[corner as usize], *apart, "vertex {corner}");
@@ -551,7 +552,7 @@ mod tests {
     fn smoothing_calms_the_curvature_of_a_rough_model() {
         let mesh = rough(&Mesh::sphere(2000), 0.01);
         let [calmed, rough] = [3, 0].map(|rounds| {
-            let curvatures = mesh.curvatures(rounds);
+            let curvatures = Curvature::of_mesh(&mesh, rounds);
             let squares = curvatures.iter().map(|own| (own.greatest - own.least).powi(2));
             (squares.sum::<f32>() / curvatures.len() as f32).sqrt()
         });
@@ -581,7 +582,7 @@ mod tests {
             ("tiny", bare(&tiny, &fan)),
         ] {
             mesh.check().unwrap();
-            for (vertex, own) in mesh.curvatures(1).into_iter().enumerate() {
+            for (vertex, own) in Curvature::of_mesh(&mesh, 1).into_iter().enumerate() {
                 let numbers = [own.along_least, own.along_greatest].concat();
                 let all = numbers.iter().chain([&own.least, &own.greatest]);
                 assert!(all.clone().all(|number| number.is_finite()), "{name} {vertex}: {own:?}");

@@ -79,7 +79,7 @@ impl Directions {
             None => lines.oriented(FADE_RINGS),
             Some(given) => lines.oriented_by(given, FADE_RINGS),
         };
-        let curvatures = mesh.curvatures(NORMAL_ROUNDS);
+        let curvatures = Curvature::of_mesh(mesh, NORMAL_ROUNDS);
         fn along(direction: [f32; 3], curvature: f32) -> Mat3 {
             let direction = Vec3::from(direction);
             Mat3::from_cols_array_2d(&[0, 1, 2].map(|i| (direction * direction[i]).to_array()))

@@ -16,7 +16,7 @@ use graphics::coherence::{
 use graphics::compute::{ColorImage, Compute, Image};
 use graphics::field::Field;
 use graphics::gpu::{BackendChoice, DeviceError};
-use graphics::mesh::Mesh;
+use graphics::mesh::{Mesh, SampleModel};
 use graphics::morphology::opening_then_closing;
 use graphics::segmentation::{SegmentationSettings, segment};
 use graphics::surface::{Fragment, Model, PackedMesh, visible};
@@ -320,7 +320,7 @@ target = [0.0, 0.6, 0.0]
 /// shape:still-life --camera` paints it: 4 samples a pixel, cast shadows, and noise that stays on
 /// its object.
 fn near(bencher: Bencher<'_, '_>, compute: Compute) {
-    let mesh = Mesh::still_life(60_000);
+    let mesh = SampleModel::StillLife.mesh(60_000);
     let cameras = CameraPath::from_text("near", NEAR).unwrap().cameras(mesh.bounds());
     let mut painter = ModelPainter::new(compute, mesh, &Settings::default(), (1000, 750)).unwrap();
     let mut along = cameras.iter().cycle();

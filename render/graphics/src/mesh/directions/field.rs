@@ -44,7 +44,7 @@ struct Base<'a> {
 }
 
 impl DirectionField {
-    /// The field along the principal directions of the mesh's curvature ([`Mesh::curvatures`]),
+    /// The field along the principal directions of the mesh's curvature ([`Curvature::of_mesh`](crate::mesh::Curvature::of_mesh)),
     /// smoothed over `settings.smoothing` as lines of two-fold symmetry.
     ///
     /// The weight of a direction is the difference between the absolute values of both curvatures

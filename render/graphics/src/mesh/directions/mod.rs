@@ -32,7 +32,7 @@ pub struct DirectionSettings {
     /// The principal direction that the field follows, the least by default.
     pub along: Along,
     /// Rounds of averaging normals before we compute curvature, see
-    /// [`Mesh::curvatures`](crate::mesh::Mesh::curvatures). The default is 1.
+    /// [`Curvature::of_mesh`](crate::mesh::Curvature::of_mesh). The default is 1.
     pub normal_rounds: usize,
     /// Length over which we smooth directions where curvature is well defined, 0 to 1. This is a
     /// share of the model's radius (the root mean square distance of the surface from its centre).

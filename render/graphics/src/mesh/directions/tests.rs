@@ -1,6 +1,7 @@
 use glam::{Quat, Vec3};
 
 use super::{Along, DirectionFault, DirectionField, DirectionSettings, FlowField, Guide, Line};
+use crate::mesh::SampleModel;
 use crate::mesh::model::Mesh;
 use crate::mesh::test_shapes::{
     bare, cylinder, degrees_between, ellipsoid, ragged, ridge, rough, square, torus, turned,
@@ -171,7 +172,7 @@ fn arrows_agree_with_their_neighbours_wherever_there_is_flow() {
         ("torus", torus(4000, 1.0, 0.4), 0.0),
         ("knot", Mesh::torus_knot(6000), 0.0),
         ("egg", ellipsoid(6000, Vec3::new(1.0, 0.6, 0.4)), 0.2),
-        ("still life", Mesh::still_life(8000), 0.3),
+        ("still life", SampleModel::StillLife.mesh(8000), 0.3),
     ];
     for (name, mesh, most) in models {
         let flow = field(&mesh).oriented(2);
@@ -235,7 +236,7 @@ fn directions_inside_triangles_ignore_signs_and_agree_along_edges() {
 
 #[test]
 fn the_field_is_the_same_on_every_number_of_threads_and_without_seams() {
-    let mesh = Mesh::still_life(12_000);
+    let mesh = SampleModel::StillLife.mesh(12_000);
     fn on(threads: usize, mesh: &Mesh) -> Vec<([f32; 3], [f32; 3], f32)> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {

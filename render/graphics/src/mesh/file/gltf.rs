@@ -203,7 +203,7 @@ impl Reader<'_> {
         if mirrored {
             part.corners.chunks_exact_mut(3).for_each(|corners| corners.swap(1, 2));
         }
-        self.mesh.add(part);
+        part.append_to(&mut self.mesh);
         Ok(())
     }
 }

@@ -86,7 +86,7 @@ pub(super) fn read(name: &str, folder: &Path, bytes: &[u8]) -> Result<Mesh, Mesh
             part.colors = colors.iter().map(|rgb| rgb.map(|v| v.clamp(0.0, 1.0))).collect();
         }
         part.corners = indices;
-        mesh.add(part);
+        part.append_to(&mut mesh);
     }
     if mesh.triangles.iter().any(|triangle| triangle.material == plain) {
         mesh.materials.push(if colored { PAINTED } else { PLAIN });

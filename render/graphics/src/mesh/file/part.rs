@@ -29,21 +29,21 @@ pub(super) const PLAIN: Material =
 pub(super) const PAINTED: Material =
     Material { name: String::new(), color: [1.0; 3], texture: None };
 
-impl Mesh {
-    /// Appends a part. This fills in missing attributes. Missing normals become zeros, and we
-    /// compute them later.
-    pub(super) fn add(&mut self, part: Part) {
-        let first = self.positions.len() as u32;
-        let count = first as usize + part.positions.len();
-        self.positions.extend(part.positions);
-        self.normals.extend(part.normals);
-        self.normals.resize(count, [0.0; 3]);
-        self.texture_coordinates.extend(part.texture_coordinates);
-        self.texture_coordinates.resize(count, [0.0; 2]);
-        self.colors.extend(part.colors);
-        self.colors.resize(count, [1.0; 3]);
-        let material = part.material;
-        self.triangles.extend(part.corners.chunks_exact(3).map(|corners| Triangle {
+impl Part {
+    /// Appends this part to a mesh. This fills in missing attributes. Missing normals become
+    /// zeros, and we compute them later.
+    pub(super) fn append_to(self, mesh: &mut Mesh) {
+        let first = mesh.positions.len() as u32;
+        let count = first as usize + self.positions.len();
+        mesh.positions.extend(self.positions);
+        mesh.normals.extend(self.normals);
+        mesh.normals.resize(count, [0.0; 3]);
+        mesh.texture_coordinates.extend(self.texture_coordinates);
+        mesh.texture_coordinates.resize(count, [0.0; 2]);
+        mesh.colors.extend(self.colors);
+        mesh.colors.resize(count, [1.0; 3]);
+        let material = self.material;
+        mesh.triangles.extend(self.corners.chunks_exact(3).map(|corners| Triangle {
             // An index out of range must stay out of range for the check.
             corners: [0, 1, 2].map(|i| first.saturating_add(corners[i])),
             material,

@@ -83,7 +83,7 @@ fn assembled(vertices: &[Vertex], faces: &[Face], has: &dyn Fn(&str) -> bool) ->
     }
     let mut mesh = Mesh::default();
     mesh.materials.push(if part.colors.is_empty() { PLAIN } else { PAINTED });
-    mesh.add(part);
+    part.append_to(&mut mesh);
     mesh
 }
 

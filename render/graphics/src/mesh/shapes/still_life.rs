@@ -4,7 +4,7 @@ use std::f32::consts::TAU;
 
 use glam::{Quat, Vec3};
 
-use super::{GridSize, lathe, mix_colors, tube, unit_sphere};
+use super::surfaces::{GridSize, lathe, mix_colors, tint, tube, unit_sphere};
 use crate::mesh::model::{Material, Mesh, Texture};
 use crate::smoothstep;
 
@@ -17,42 +17,31 @@ const CLOTH_RADIUS: f32 = 2.95;
 
 const TABLE_RADIUS: f32 = 2.05;
 
-impl Mesh {
-    /// A still life of about `triangles` triangles, about 5 wide, with the table top at y = 0. The
-    /// cloth is open below. Use this to try materials, a texture and vertex colours.
-    #[must_use]
-    pub fn still_life(triangles: usize) -> Self {
-        let materials = vec![
-            Material { texture: Some(stripes()), ..Material::named("cloth", [1.0; 3]) },
-            Material::named("jug", [1.0; 3]),
-            Material::named("fruit", [1.0; 3]),
-            Material::named("wood", [0.42, 0.30, 0.20]),
-        ];
-        let mut mesh = Self { materials, ..Self::default() };
-        fn share(percent: usize, triangles: usize) -> usize {
-            triangles * percent / 100
-        }
-        add_cloth(&mut mesh, share(26, triangles));
-        add_jug(&mut mesh, share(22, triangles), Vec3::new(-0.75, 0.0, -0.35));
-        for (x, z, lean, turn, size) in
-            [(0.62, 0.05, 0.10, 0.4, 1.0), (1.35, -0.55, -0.16, 2.2, 0.92)]
-        {
-            let pose = Quat::from_rotation_y(turn) * Quat::from_rotation_x(lean);
-            add_pear(&mut mesh, share(13, triangles), Vec3::new(x, 0.02, z), pose, size);
-        }
-        let down = Quat::from_rotation_y(0.5) * Quat::from_rotation_z(1.45);
-        add_pear(&mut mesh, share(13, triangles), Vec3::new(0.75, 0.41, 0.95), down, 0.9);
-        add_lemon(&mut mesh, share(6, triangles), Vec3::new(-0.72, 0.29, 1.28));
-        add_orange(&mut mesh, share(7, triangles), Vec3::new(-1.35, 0.43, 0.75));
-        mesh
+/// A still life of about `triangles` triangles, about 5 wide, with the table top at y = 0. The
+/// cloth is open below. Use this to try materials, a texture and vertex colours.
+pub(super) fn still_life(triangles: usize) -> Mesh {
+    let materials = vec![
+        Material { texture: Some(stripes()), ..Material::named("cloth", [1.0; 3]) },
+        Material::named("jug", [1.0; 3]),
+        Material::named("fruit", [1.0; 3]),
+        Material::named("wood", [0.42, 0.30, 0.20]),
+    ];
+    let mut mesh = Mesh { materials, ..Mesh::default() };
+    fn share(percent: usize, triangles: usize) -> usize {
+        triangles * percent / 100
     }
-
-    /// Sets the colours of the vertices from index `first` on, by their position.
-    pub(super) fn tint(&mut self, first: usize, color: impl Fn(Vec3) -> [f32; 3]) {
-        for (position, found) in self.positions[first..].iter().zip(&mut self.colors[first..]) {
-            *found = color(Vec3::from(*position));
-        }
+    add_cloth(&mut mesh, share(26, triangles));
+    add_jug(&mut mesh, share(22, triangles), Vec3::new(-0.75, 0.0, -0.35));
+    for (x, z, lean, turn, size) in [(0.62, 0.05, 0.10, 0.4, 1.0), (1.35, -0.55, -0.16, 2.2, 0.92)]
+    {
+        let pose = Quat::from_rotation_y(turn) * Quat::from_rotation_x(lean);
+        add_pear(&mut mesh, share(13, triangles), Vec3::new(x, 0.02, z), pose, size);
     }
+    let down = Quat::from_rotation_y(0.5) * Quat::from_rotation_z(1.45);
+    add_pear(&mut mesh, share(13, triangles), Vec3::new(0.75, 0.41, 0.95), down, 0.9);
+    add_lemon(&mut mesh, share(6, triangles), Vec3::new(-0.72, 0.29, 1.28));
+    add_orange(&mut mesh, share(7, triangles), Vec3::new(-1.35, 0.43, 0.75));
+    mesh
 }
 
 fn stripes() -> Texture {
@@ -134,7 +123,7 @@ fn add_jug(mesh: &mut Mesh, triangles: usize, at: Vec3) {
     let handle = tube(&points, thickness);
     let turn = spout * Quat::from_rotation_y(-TAU / 4.0);
     mesh.add_grid(GridSize::for_triangles(triangles / 4, 0.5), GLAZE, |uv| at + turn * handle(uv));
-    mesh.tint(first, |position| {
+    tint(mesh, first, |position| {
         // The foot is bare clay. A band stays pale.
         let band =
             smoothstep([0.84, 0.88], position.y) * (1.0 - smoothstep([1.08, 1.12], position.y));
@@ -164,7 +153,7 @@ fn add_pear(mesh: &mut Mesh, triangles: usize, at: Vec3, pose: Quat, size: f32) 
         at + pose * ((position + Vec3::new(lean, 0.0, 0.4 * lean)) * size)
     });
     let turned_back = pose.inverse();
-    mesh.tint(first, |position| {
+    tint(mesh, first, |position| {
         let own = turned_back * (position - at) / size;
         let ripe =
             mix_colors([0.58, 0.64, 0.24], [0.90, 0.76, 0.30], smoothstep([0.0, 0.9], own.y));
@@ -192,7 +181,7 @@ fn add_lemon(mesh: &mut Mesh, triangles: usize, at: Vec3) {
     ]);
     let pose = Quat::from_rotation_y(0.8) * Quat::from_rotation_z(1.5);
     mesh.add_grid(GridSize::for_triangles(triangles, 1.3), FRUIT, |uv| at + pose * body(uv));
-    mesh.tint(first, |position| {
+    tint(mesh, first, |position| {
         mix_colors(
             [0.80, 0.72, 0.22],
             [0.96, 0.86, 0.30],
@@ -208,7 +197,7 @@ fn add_orange(mesh: &mut Mesh, triangles: usize, at: Vec3) {
         // Dent at the stalk.
         at + ball * (0.43 - 0.05 * (-(ball.x * ball.x + ball.z * ball.z) / 0.02).exp())
     });
-    mesh.tint(first, |position| {
+    tint(mesh, first, |position| {
         mix_colors(
             [0.86, 0.44, 0.16],
             [0.93, 0.58, 0.20],

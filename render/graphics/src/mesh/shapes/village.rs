@@ -6,7 +6,7 @@ use glam::{Quat, Vec2, Vec3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::{GridSize, lathe, mix_colors, unit_sphere};
+use super::surfaces::{GridSize, lathe, mix_colors, tint, unit_sphere};
 use crate::mesh::model::{Material, Mesh};
 use crate::smoothstep;
 
@@ -38,59 +38,56 @@ const HOUSES: [[f32; 2]; 15] = [
     [1.25, 5.6],
 ];
 
-impl Mesh {
-    /// A village of about `triangles` triangles, 20 wide and open below. You get at least about
-    /// 1,500.
-    #[must_use]
-    pub fn village(triangles: usize) -> Self {
-        let materials = [
-            ("land", [1.0, 1.0, 1.0]),
-            ("wall", [0.91, 0.86, 0.76]),
-            ("wall", [0.86, 0.76, 0.62]),
-            ("wall", [0.90, 0.82, 0.78]),
-            ("roof", [0.74, 0.42, 0.31]),
-            ("roof", [0.62, 0.37, 0.33]),
-            ("opening", [0.34, 0.36, 0.42]),
-            ("leaves", [1.0, 1.0, 1.0]),
-            ("wood", [0.42, 0.33, 0.26]),
-        ]
-        .map(|(name, color)| Material::named(name, color));
-        let mut mesh = Self { materials: materials.to_vec(), ..Self::default() };
-        add_land(&mut mesh, triangles * 45 / 100);
-        add_church(&mut mesh);
-        let mut rng = ChaCha8Rng::seed_from_u64(2006);
-        for (i, [angle, distance]) in HOUSES.into_iter().enumerate() {
-            let at = on_land(angle, distance);
-            let size = Vec3::new(
-                rng.random_range(0.5..0.68),
-                rng.random_range(0.55..0.95),
-                rng.random_range(0.62..0.9),
-            );
-            // Houses face along the slope.
-            let turn = angle + rng.random_range(-0.25..0.25);
-            let colors = [WALLS[i % 3], ROOFS[i * 7 % 2]];
-            add_house(&mut mesh, at, turn, size, colors);
-        }
-        let trees = 46;
-        let each = (triangles * 55 / 100).saturating_sub(HOUSES.len() * 60) / trees;
-        let mut planted = 0;
-        while planted < trees {
-            let angle = rng.random_range(0.0..TAU);
-            let distance = RADIUS * rng.random_range(0.2f32..0.92).sqrt();
-            if HOUSES
-                .iter()
-                .any(|&[a, d]: &[f32; 2]| on_land(a, d).distance(on_land(angle, distance)) < 1.0)
-                || distance < 1.6
-                || on_path(on_land(angle, distance)) > 0.2
-            {
-                continue;
-            }
-            let height = rng.random_range(0.8..1.5);
-            add_tree(&mut mesh, each, on_land(angle, distance), height, planted % 4 == 0);
-            planted += 1;
-        }
-        mesh
+/// A village of about `triangles` triangles, 20 wide and open below. You get at least about
+/// 1,500.
+pub(super) fn village(triangles: usize) -> Mesh {
+    let materials = [
+        ("land", [1.0, 1.0, 1.0]),
+        ("wall", [0.91, 0.86, 0.76]),
+        ("wall", [0.86, 0.76, 0.62]),
+        ("wall", [0.90, 0.82, 0.78]),
+        ("roof", [0.74, 0.42, 0.31]),
+        ("roof", [0.62, 0.37, 0.33]),
+        ("opening", [0.34, 0.36, 0.42]),
+        ("leaves", [1.0, 1.0, 1.0]),
+        ("wood", [0.42, 0.33, 0.26]),
+    ]
+    .map(|(name, color)| Material::named(name, color));
+    let mut mesh = Mesh { materials: materials.to_vec(), ..Mesh::default() };
+    add_land(&mut mesh, triangles * 45 / 100);
+    add_church(&mut mesh);
+    let mut rng = ChaCha8Rng::seed_from_u64(2006);
+    for (i, [angle, distance]) in HOUSES.into_iter().enumerate() {
+        let at = on_land(angle, distance);
+        let size = Vec3::new(
+            rng.random_range(0.5..0.68),
+            rng.random_range(0.55..0.95),
+            rng.random_range(0.62..0.9),
+        );
+        // Houses face along the slope.
+        let turn = angle + rng.random_range(-0.25..0.25);
+        let colors = [WALLS[i % 3], ROOFS[i * 7 % 2]];
+        add_house(&mut mesh, at, turn, size, colors);
     }
+    let trees = 46;
+    let each = (triangles * 55 / 100).saturating_sub(HOUSES.len() * 60) / trees;
+    let mut planted = 0;
+    while planted < trees {
+        let angle = rng.random_range(0.0..TAU);
+        let distance = RADIUS * rng.random_range(0.2f32..0.92).sqrt();
+        if HOUSES
+            .iter()
+            .any(|&[a, d]: &[f32; 2]| on_land(a, d).distance(on_land(angle, distance)) < 1.0)
+            || distance < 1.6
+            || on_path(on_land(angle, distance)) > 0.2
+        {
+            continue;
+        }
+        let height = rng.random_range(0.8..1.5);
+        add_tree(&mut mesh, each, on_land(angle, distance), height, planted % 4 == 0);
+        planted += 1;
+    }
+    mesh
 }
 
 fn height([x, z]: [f32; 2]) -> f32 {
@@ -122,7 +119,7 @@ fn add_land(mesh: &mut Mesh, triangles: usize) {
         let ragged = 1.0 + 0.05 * (5.0 * angle).sin() + 0.03 * (13.0 * angle + 1.0).sin();
         on_land(angle, RADIUS * ragged * uv.y)
     });
-    mesh.tint(first, |position| {
+    tint(mesh, first, |position| {
         let meadow = (0.9 * position.x + 0.4).sin() * (0.7 * position.z).cos();
         let green = mix_colors([0.56, 0.66, 0.36], [0.76, 0.76, 0.44], 0.5 + 0.5 * meadow);
         let fields = smoothstep([5.0, 6.0], position.x - 0.4 * position.z);
@@ -239,7 +236,7 @@ fn add_tree(mesh: &mut Mesh, triangles: usize, at: Vec3, height: f32, slim: bool
         true => [0.30, 0.44, 0.34],
         false => mix_colors([0.38, 0.52, 0.26], [0.62, 0.62, 0.28], own),
     };
-    mesh.tint(first, |position| {
+    tint(mesh, first, |position| {
         let light = smoothstep([middle.y - tall, middle.y + tall], position.y);
         mix_colors(leaf.map(|value| 0.85 * value), leaf, light)
     });
