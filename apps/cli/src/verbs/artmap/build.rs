@@ -4,7 +4,7 @@
 
 use std::path::PathBuf;
 
-use artmap::map::{ArtMap, Between, file};
+use artmap::map::{ArtMap, Between, MapFigures, file};
 use artmap::sample::SampleSet;
 use artmap::sheet::sheet;
 use artmap::synthesis::{Features, Stage, SynthesisSettings};
@@ -98,7 +98,7 @@ impl Build {
             Some(_) => ArtMap::with_stages(&set, &self.settings())?,
             None => (ArtMap::of(&set, &self.settings())?, Vec::new()),
         };
-        let figures = map.figures();
+        let figures = MapFigures::of(&map);
         drop(waiting);
         if let Some(folder) = folder {
             write_stages(&folder, &stages, console)?;
@@ -166,7 +166,7 @@ pub(super) struct Check {
 impl Check {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let map = ArtMap::open(&self.map)?;
-        let figures = map.figures();
+        let figures = MapFigures::of(&map);
         let faults = figures.faults();
         if self.csv {
             csv_tiles(&map_json(&map, &figures), console)?;
@@ -258,7 +258,7 @@ impl Show {
     }
 
     fn show_map(&self, map: &ArtMap, console: &mut Console<'_>) -> Result<()> {
-        let figures = map.figures();
+        let figures = MapFigures::of(map);
         if self.csv {
             return csv_tiles(&map_json(map, &figures), console);
         }

@@ -11,16 +11,6 @@ use super::ArtMap;
 use crate::map::Between;
 use crate::measures::{Texture, coherence, contrast, stroke_length, usual_wrap_ratio, wrap_ratio};
 
-impl ArtMap {
-    /// Faults of the map: tiles that do not cohere with the first one or show a seam, tones too
-    /// close or in the wrong order, in-betweens that lose contrast or lightness. If you get an
-    /// empty list, the map is good.
-    #[must_use]
-    pub fn faults(&self) -> Vec<MapFault> {
-        self.figures().faults()
-    }
-}
-
 /// We measure in-betweens at these shares of the way to the lighter tile.
 const SHARES: [f32; 3] = [0.25, 0.5, 0.75];
 
@@ -28,7 +18,7 @@ const SHARES: [f32; 3] = [0.25, 0.5, 0.75];
 /// neighbouring strokes.
 const LEVELLED: f64 = 4.0;
 
-/// Figures of a map, as `ArtMap::figures` measures them.
+/// Figures of a map, as [`MapFigures::of`] measures them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MapFigures {
     /// Index of the tile that the others follow.
@@ -80,69 +70,30 @@ pub struct BetweenFigures {
     pub wanted_tone: f64,
 }
 
-impl ArtMap {
-    /// Measures the map.
-    ///
-    /// # Panics
-    /// If the tiles differ in size, or `first` is not the index of a tile.
-    #[must_use]
-    pub fn figures(&self) -> MapFigures {
-        let textures: Vec<Texture> =
-            self.keys.par_iter().map(|key| Texture::tiled(&key.tile.color)).collect();
-        let agreement = |index: usize, other: usize| {
-            if index == other {
-                return 1.0;
+fn between_figures(map: &ArtMap, lower: usize, keys: &[KeyFigures]) -> Vec<BetweenFigures> {
+    let Some(transition) = map.transition(lower, Between::Dissolve) else {
+        return Vec::new();
+    };
+    let darker = &keys[lower];
+    let lighter = &keys[lower + 1];
+    SHARES
+        .map(|at: f32| {
+            let tile = transition.at(at);
+            let share = f64::from(at);
+            fn mean(dark: f64, light: f64, share: f64) -> f64 {
+                dark + share * (light - dark)
             }
-            coherence(&textures[other], &textures[index], self.spacing)
-        };
-        let keys: Vec<KeyFigures> = (0..self.keys.len())
-            .into_par_iter()
-            .map(|index: usize| KeyFigures {
-                name: self.keys[index].name.clone(),
-                tone: self.keys[index].tone,
-                contrast: contrast(&textures[index]),
-                stroke_length: stroke_length(&textures[index].levelled(LEVELLED * self.spacing)),
-                coherence: agreement(index, self.first),
-                neighbour_coherence: match index.cmp(&self.first) {
-                    Ordering::Less => agreement(index, index + 1),
-                    Ordering::Equal => 1.0,
-                    Ordering::Greater => agreement(index, index - 1),
-                },
-                wrap_ratio: wrap_ratio(&textures[index]),
-                usual_wrap_ratio: usual_wrap_ratio(&textures[index]),
-            })
-            .collect();
-        let lower = 0..self.keys.len().saturating_sub(1);
-        let betweens: Vec<Vec<BetweenFigures>> =
-            lower.into_par_iter().map(|lower| self.between_figures(lower, &keys)).collect();
-        MapFigures { first: self.first, keys, betweens: betweens.concat() }
-    }
-
-    fn between_figures(&self, lower: usize, keys: &[KeyFigures]) -> Vec<BetweenFigures> {
-        let Some(transition) = self.transition(lower, Between::Dissolve) else {
-            return Vec::new();
-        };
-        let darker = &keys[lower];
-        let lighter = &keys[lower + 1];
-        SHARES
-            .map(|at: f32| {
-                let tile = transition.at(at);
-                let share = f64::from(at);
-                fn mean(dark: f64, light: f64, share: f64) -> f64 {
-                    dark + share * (light - dark)
-                }
-                let of_keys = mean(darker.contrast, lighter.contrast, share);
-                let found = contrast(&Texture::tiled(&tile.color));
-                BetweenFigures {
-                    lower,
-                    share,
-                    contrast: (of_keys > 0.0).then(|| found / of_keys),
-                    tone: tile.tone(),
-                    wanted_tone: mean(darker.tone, lighter.tone, share),
-                }
-            })
-            .to_vec()
-    }
+            let of_keys = mean(darker.contrast, lighter.contrast, share);
+            let found = contrast(&Texture::tiled(&tile.color));
+            BetweenFigures {
+                lower,
+                share,
+                contrast: (of_keys > 0.0).then(|| found / of_keys),
+                tone: tile.tone(),
+                wanted_tone: mean(darker.tone, lighter.tone, share),
+            }
+        })
+        .to_vec()
 }
 
 /// Least coherence of a tile with the first tile, or with the next tile towards the first. For
@@ -253,7 +204,45 @@ pub enum MapFault {
 }
 
 impl MapFigures {
-    /// Faults that these figures show: first of tiles, then of pairs of neighbours.
+    /// Measures a map.
+    ///
+    /// # Panics
+    /// If the tiles differ in size, or `first` is not the index of a tile.
+    #[must_use]
+    pub fn of(map: &ArtMap) -> Self {
+        let textures: Vec<Texture> =
+            map.keys.par_iter().map(|key| Texture::tiled(&key.tile.color)).collect();
+        let agreement = |index: usize, other: usize| {
+            if index == other {
+                return 1.0;
+            }
+            coherence(&textures[other], &textures[index], map.spacing)
+        };
+        let keys: Vec<KeyFigures> = (0..map.keys.len())
+            .into_par_iter()
+            .map(|index: usize| KeyFigures {
+                name: map.keys[index].name.clone(),
+                tone: map.keys[index].tone,
+                contrast: contrast(&textures[index]),
+                stroke_length: stroke_length(&textures[index].levelled(LEVELLED * map.spacing)),
+                coherence: agreement(index, map.first),
+                neighbour_coherence: match index.cmp(&map.first) {
+                    Ordering::Less => agreement(index, index + 1),
+                    Ordering::Equal => 1.0,
+                    Ordering::Greater => agreement(index, index - 1),
+                },
+                wrap_ratio: wrap_ratio(&textures[index]),
+                usual_wrap_ratio: usual_wrap_ratio(&textures[index]),
+            })
+            .collect();
+        let lower = 0..map.keys.len().saturating_sub(1);
+        let betweens: Vec<Vec<BetweenFigures>> =
+            lower.into_par_iter().map(|lower| between_figures(map, lower, &keys)).collect();
+        Self { first: map.first, keys, betweens: betweens.concat() }
+    }
+
+    /// Faults that these figures show: first of tiles, then of pairs of neighbours. If you get an
+    /// empty list, the map is good.
     #[must_use]
     pub fn faults(&self) -> Vec<MapFault> {
         let keys = self.keys.iter().flat_map(of_key);
@@ -366,8 +355,8 @@ mod tests {
             key("middle", 0.2, 12.0, 0.0),
             key("light", 0.5, 12.0, 0.0),
         ]);
-        assert_eq!(map.faults(), []);
-        let figures = map.figures();
+        assert_eq!(MapFigures::of(&map).faults(), []);
+        let figures = MapFigures::of(&map);
         assert_eq!((figures.keys.len(), figures.betweens.len()), (3, 6));
         assert!(figures.keys[2].coherence > 0.95, "{}", figures.keys[2].coherence);
         assert_eq!(figures.keys[1].tone, map.keys[1].tone);
@@ -379,18 +368,18 @@ mod tests {
     #[test]
     fn a_single_tone_is_allowed() {
         let single = map(vec![key("only", 0.2, 12.0, 0.0)]);
-        assert_eq!(single.faults(), []);
-        assert!(single.figures().betweens.is_empty());
+        assert_eq!(MapFigures::of(&single).faults(), []);
+        assert!(MapFigures::of(&single).betweens.is_empty());
     }
 
     #[test]
     fn strokes_at_other_places_are_told_with_the_tile() {
         let moved = map(vec![key("dark", 0.05, 12.0, 0.0), key("light", 0.4, 12.0, 0.5)]);
-        let faults = moved.faults();
+        let faults = MapFigures::of(&moved).faults();
         let MapFault::Coherence { name, found, .. } = &faults[0] else { panic!("{faults:?}") };
         assert!(name == "light" && *found < -0.8, "{name} {found}");
         // In line art a tile may agree with its neighbour alone.
-        let mut figures = moved.figures();
+        let mut figures = MapFigures::of(&moved);
         figures.keys[1].neighbour_coherence = 0.7;
         let faults = figures.faults();
         assert!(
@@ -399,7 +388,7 @@ mod tests {
         );
         // The first tile is the one that we compare others with.
         let other = ArtMap { first: 1, ..moved };
-        let faults = other.faults();
+        let faults = MapFigures::of(&other).faults();
         assert!(
             matches!(&faults[0], MapFault::Coherence { name, .. } if name == "dark"),
             "{faults:?}"
@@ -409,14 +398,14 @@ mod tests {
     #[test]
     fn a_seam_is_told_with_the_tile() {
         let map = map(vec![key("dark", 0.05, 12.0, 0.0), key("light", 0.4, 12.8, 0.25)]);
-        let faults = map.faults();
+        let faults = MapFigures::of(&map).faults();
         let seam = faults.iter().find(|fault| matches!(fault, MapFault::Seam { .. })).unwrap();
         assert!(
             seam.to_string().starts_with("tile `light`: steps across its border are 3."),
             "{seam}"
         );
         // Where places inside vary as much, the border does not stand out.
-        let mut figures = map.figures();
+        let mut figures = MapFigures::of(&map);
         figures.keys[1].usual_wrap_ratio = 4.0;
         let faults = figures.faults();
         assert!(!faults.iter().any(|fault| matches!(fault, MapFault::Seam { .. })), "{faults:?}");
@@ -427,7 +416,7 @@ mod tests {
         fn tones(greys: [f32; 3]) -> ArtMap {
             map(greys.into_iter().zip(["a", "b", "c"]).map(|(g, n)| key(n, g, 12.0, 0.0)).collect())
         }
-        let faults = tones([0.2, 0.05, 0.5]).faults();
+        let faults = MapFigures::of(&tones([0.2, 0.05, 0.5])).faults();
         let step =
             MapFault::Step { darker: "a".into(), lighter: "b".into(), found: 0.0, wanted: 0.0 };
         assert_eq!(std::mem::discriminant(&faults[0]), std::mem::discriminant(&step), "{faults:?}");
@@ -436,9 +425,9 @@ mod tests {
             "{}",
             faults[0]
         );
-        let alike = tones([0.2, 0.207, 0.5]).faults();
+        let alike = MapFigures::of(&tones([0.2, 0.207, 0.5])).faults();
         assert!(matches!(alike[..], [MapFault::Step { .. }]), "{alike:?}");
-        let narrow = tones([0.2, 0.23, 0.26]).faults();
+        let narrow = MapFigures::of(&tones([0.2, 0.23, 0.26])).faults();
         let [MapFault::Spread { found, wanted }] = narrow[..] else { panic!("{narrow:?}") };
         assert!(found < wanted && found > 4.0, "{found}");
     }
@@ -446,7 +435,7 @@ mod tests {
     #[test]
     fn weak_and_uneven_in_betweens_are_told_and_every_fault_has_a_way_out() {
         let keys = vec![key("dark", 0.05, 12.0, 0.0), key("light", 0.4, 12.0, 0.0)];
-        let mut figures = map(keys).figures();
+        let mut figures = MapFigures::of(&map(keys));
         figures.betweens[0].contrast = Some(0.9);
         figures.betweens[1].tone += 0.6;
         figures.betweens[2].contrast = None;
