@@ -21,7 +21,7 @@ use super::camera::CameraTable;
 use super::tables::{
     DryTable, KeepTable, LiftTable, PourTable, PushTable, RegionTable, SplitTable, VolumeTable,
 };
-use crate::settings::Preset;
+use crate::settings::{Inside, Preset, Settings, even_tints};
 use crate::toml_text::{Checked, Fault, KeyPath};
 
 /// A script: the subject, its settings, and what you do to it in time. The key of each value in a
@@ -404,5 +404,58 @@ impl Script {
             return Err(Fault::new(&key, wanted, light.escape_debug(), hint));
         }
         Ok(())
+    }
+}
+
+/// How the volumes of a region show what they hold.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RegionStyle {
+    /// Its name. If a script lists no regions, its only region has an empty name.
+    pub name: String,
+    /// How the scene looks inside of its volumes.
+    pub inside: Inside,
+    /// Sizes of the shells, falling from 1.
+    pub shells: Vec<f32>,
+    /// Share of colour by the number of shells. There is one more share than shells.
+    pub tints: Vec<f32>,
+    /// Inside of volumes we multiply the grey drawing by this colour, written `#rrggbb`, and then
+    /// lay the share of colour over it. Use white for a drawing that stays grey.
+    pub stain: String,
+}
+
+impl Script {
+    /// The regions in order, at least one. If a region leaves something out, `settings` give it.
+    #[must_use]
+    pub fn region_styles(&self, settings: &Settings) -> Vec<RegionStyle> {
+        let unnamed = [RegionTable::default()];
+        let regions = if self.regions.is_empty() { &unnamed } else { &self.regions[..] };
+        fn narrow(list: &[f64]) -> Vec<f32> {
+            list.iter().map(|&value| value as f32).collect::<Vec<_>>()
+        }
+        regions
+            .iter()
+            .map(|region: &RegionTable| {
+                let drawing = &settings.drawing;
+                let shells = region.shells.as_deref().map_or(drawing.shells.clone(), narrow);
+                let tints = match (&region.tint, &region.shells) {
+                    (Some(tint), _) => narrow(tint),
+                    (None, Some(_)) => Vec::new(),
+                    (None, None) => drawing.tint.clone(),
+                };
+                let tints =
+                    if tints.is_empty() { narrow(&even_tints(shells.len())) } else { tints };
+                let inside = region.inside.unwrap_or(drawing.inside);
+                let stain = region.stain.as_ref().unwrap_or(&drawing.stain).clone();
+                RegionStyle { name: region.name.clone(), inside, shells, tints, stain }
+            })
+            .collect()
+    }
+
+    /// Index of the region with this name. Without a name, this is the first.
+    pub(super) fn region_index(&self, name: Option<&str>) -> Option<usize> {
+        match name {
+            None => Some(0),
+            Some(name) => self.regions.iter().position(|region| region.name == name),
+        }
     }
 }

@@ -91,10 +91,8 @@ mod tables;
 mod camera;
 mod action;
 mod file;
-mod check;
-mod text;
-mod events;
 mod record;
+mod text;
 #[cfg(test)]
 mod tests;
 
@@ -102,10 +100,8 @@ pub use action::{
     Action, Dry, Lift, NewVolume, PathPoint, Place, Pour, Push, Quantity, Recipe, Split,
 };
 pub use camera::{CameraTable, KeyframeTable, ScriptCamera};
-pub use check::RegionStyle;
-pub use events::{Event, seconds_of, steps_of};
-pub use file::{Script, Subject, is_light};
-pub use record::Recorder;
+pub use file::{RegionStyle, Script, Subject, is_light};
+pub use record::{Event, Recorder, seconds_of, steps_of};
 pub use rows::{
     Ball, MOST_EVENTS, MOST_FRAMES, MOST_SECONDS, Pair, Row, cells_too_small, frames_fit,
     samples_too_many,

@@ -1,4 +1,4 @@
-//! Records what you do in a session as a script, and changes the settings of a script.
+//! A script as actions in time, and the way back: what you do in a session as a script.
 //!
 //! A session rounds what it does before it does it. The recording holds the rounded numbers, so it
 //! plays the same.
@@ -11,14 +11,118 @@ use toml::{Table, Value};
 
 use super::action::{Action, Dry, Lift, NewVolume, PathPoint, Place, Pour, Push, Quantity, Split};
 use super::camera::{CameraTable, KeyframeTable};
-use super::events::seconds_of;
 use super::file::Script;
 use super::rows::{Ball, Pair, Row};
 use super::tables::{
     DryTable, KeepTable, LiftTable, PourTable, PushTable, RegionTable, SplitTable, VolumeTable,
 };
-use crate::settings::SettingsError;
-use crate::toml_text::Source;
+use crate::toml_text::KeyPath;
+use crate::world::STEPS_PER_SECOND;
+
+/// An action, and when it happens.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Event {
+    /// The action begins before this step. Steps count from 0.
+    pub start: u32,
+    /// The action ends before this step. It is above `start`, so actions of a moment last one
+    /// step.
+    pub end: u32,
+    /// The action.
+    pub action: Action,
+    /// Path of its table in the script. Faults show this.
+    pub table: KeyPath,
+}
+
+/// Number of steps nearest to a time of at least 0 s.
+#[must_use]
+pub fn steps_of(seconds: f64) -> u32 {
+    (seconds * f64::from(STEPS_PER_SECOND)).round() as u32
+}
+
+/// Time of a step in seconds.
+#[must_use]
+pub fn seconds_of(steps: u32) -> f64 {
+    f64::from(steps) / f64::from(STEPS_PER_SECOND)
+}
+
+impl Script {
+    /// All actions. We sort them by the step in which they begin, then in the order of [`Action`],
+    /// then as in the script. First [`Script::check`] the script.
+    #[must_use]
+    pub fn events(&self) -> Vec<Event> {
+        let mut events = Vec::new();
+        let mut add = |name: &str, index: usize, [from, duration]: [f64; 2], action: Action| {
+            let start = steps_of(from);
+            let end = start + steps_of(duration).max(1);
+            events.push(Event { start, end, action, table: KeyPath::of(name).index(index) });
+        };
+        for (index, table) in self.volumes.iter().enumerate() {
+            let volume = NewVolume {
+                center: table.center.0,
+                radius: table.radius,
+                detail: table.detail,
+                recipe: table.recipe.clone(),
+                region: self.region_index(table.region.as_deref()).unwrap_or(0),
+            };
+            add("volume", index, [table.from_s, 0.0], Action::Volume(volume));
+        }
+        for (index, table) in self.pours.iter().enumerate() {
+            let pour = Pour {
+                place: place(table.at, table.picked, &table.path),
+                quantity: quantity(table.amount_mm3, table.rate_mm3_s),
+                recipe: table.recipe.clone(),
+                region: self.region_index(table.region.as_deref()).unwrap_or(0),
+            };
+            add("pour", index, [table.from_s, table.for_s], Action::Pour(pour));
+        }
+        for (index, table) in self.pushes.iter().enumerate() {
+            let at = table.at.0;
+            let towards = table.towards.0;
+            let push = Push { at, towards, radius: table.radius, strength: table.strength };
+            add("push", index, [table.from_s, table.for_s], Action::Push(push));
+        }
+        for (index, table) in self.lifts.iter().enumerate() {
+            let lift = Lift {
+                place: place(table.at, table.picked, &table.path),
+                radius: table.radius,
+                rate: table.rate,
+            };
+            add("lift", index, [table.from_s, table.for_s], Action::Lift(lift));
+        }
+        for (index, table) in self.splits.iter().enumerate() {
+            let volume = table.volume.map(|number| number.saturating_sub(1) as usize);
+            add("split", index, [table.at_s, 0.0], Action::Split(Split { volume }));
+        }
+        for (index, table) in self.dries.iter().enumerate() {
+            let ball = table.at.zip(table.radius);
+            let ball = ball.map(|(Row(center), radius)| Ball { center, radius });
+            add("dry", index, [table.at_s, 0.0], Action::Dry(Dry { ball }));
+        }
+        events.sort_by_key(|event| (event.start, event.action.rank()));
+        events
+    }
+}
+
+fn place(at: Option<Row<3>>, picked: Option<Row<2>>, path: &[Row<4>]) -> Place {
+    if !path.is_empty() {
+        return Place::Path(
+            path.iter()
+                .map(|&Row([seconds, x, y, z]): &Row<4>| PathPoint { seconds, at: [x, y, z] })
+                .collect(),
+        );
+    }
+    match picked {
+        Some(Row(picked)) => Place::Picked(picked),
+        None => Place::At(at.map(|Row(at)| at).unwrap_or_default()),
+    }
+}
+
+fn quantity(amount: Option<f64>, rate: Option<f64>) -> Quantity {
+    match rate {
+        Some(rate) => Quantity::Rate(rate),
+        None => Quantity::Amount(amount.unwrap_or(0.0)),
+    }
+}
 
 /// A script that grows while a session goes on.
 #[derive(Debug, Clone, PartialEq)]
@@ -364,80 +468,4 @@ fn lift(lift: &LiftTable) -> LiftTable {
 
 fn dry(dry: &DryTable) -> DryTable {
     DryTable { at_s: time(dry.at_s), at: dry.at.map(row), radius: dry.radius.map(six) }
-}
-
-impl Script {
-    /// Replaces settings of the script by the ones in `text` (TOML). Errors call this text `name`.
-    ///
-    /// # Errors
-    /// [`SettingsError`] if the text is no TOML, a key is unknown, or a value is out of its range.
-    pub fn change_settings(&mut self, name: &str, text: &str) -> Result<(), SettingsError> {
-        let settings = self.settings().map_err(crate::toml_text::TextError::from)?;
-        settings.changed(name, text)?;
-        let mut changes: Table = Source::toml(name, text)?.typed()?;
-        if let Some(Value::Table(grid)) = changes.remove("grid") {
-            let own = match self.grid.is_empty() {
-                true => group(&mut self.settings, "grid"),
-                false => &mut self.grid,
-            };
-            own.extend(grid);
-        }
-        if changes.contains_key("unit_mm") {
-            self.unit_mm = None;
-        }
-        for (key, change) in changes {
-            match change {
-                Value::Table(values) => group(&mut self.settings, &key).extend(values),
-                value => {
-                    self.settings.insert(key, value);
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Leaves the light out unless the script asks for it. Use this for a photograph, which has
-    /// its own light.
-    pub fn light_of_its_own(&mut self) {
-        let light = group(&mut self.settings, "light");
-        light.entry("lit").or_insert(Value::Boolean(false));
-    }
-}
-
-/// The group of settings with this name. Makes it if there is none.
-fn group<'t>(settings: &'t mut Table, name: &str) -> &'t mut Table {
-    let group = settings.entry(name).or_insert_with(|| Value::Table(Table::new()));
-    if !group.is_table() {
-        *group = Value::Table(Table::new());
-    }
-    match group {
-        Value::Table(group) => group,
-        _ => unreachable!("made a table above"),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn changes_join_the_settings_of_a_script() {
-        let mut script = Script::new("shape:sphere", 1.0);
-        script.unit_mm = Some(2.0);
-        script.change_settings("a", "motion.kick = 0.5\ngrid.rate = 0.01").unwrap();
-        script.change_settings("b", "unit_mm = 3.0\n[motion]\ngrain = 0.5").unwrap();
-        let settings = script.settings().unwrap();
-        assert_eq!((settings.motion.kick, settings.motion.grain), (0.5, 0.5));
-        assert_eq!((settings.grid.rate, settings.unit_mm), (0.01, 3.0));
-        let error = script.change_settings("c", "motion.kick = -1.0").unwrap_err();
-        assert!(error.to_string().contains("kick"), "{error}");
-        assert_eq!(script.settings().unwrap(), settings);
-        script.light_of_its_own();
-        assert!(!script.settings().unwrap().light.lit);
-        script.change_settings("d", "light.lit = true").unwrap();
-        script.light_of_its_own();
-        assert!(script.settings().unwrap().light.lit);
-        let written = Script::from_text("s", &script.to_text().unwrap()).unwrap();
-        assert_eq!(written.settings().unwrap(), script.settings().unwrap());
-    }
 }

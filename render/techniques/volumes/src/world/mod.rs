@@ -14,7 +14,6 @@ mod actions;
 mod state;
 mod pouring;
 mod time;
-mod saved;
 
 #[cfg(test)]
 mod tests;
