@@ -79,13 +79,13 @@ pub const RULES: [Rule; 16] = [
     },
     Rule {
         name: "files of declarations only, in folders with fewer than four others",
-        limit: Limit::AtMost(3.0),
+        limit: Limit::AtMost(1.0),
         mark: Some(Mark::DeclarationFiles),
         figure: |figures| count(figures, Mark::DeclarationFiles),
     },
     Rule {
         name: "types with `impl`s of their own in more than three files",
-        limit: Limit::AtMost(9.0),
+        limit: Limit::AtMost(3.0),
         mark: Some(Mark::SpreadTypes),
         figure: |figures| count(figures, Mark::SpreadTypes),
     },
