@@ -73,7 +73,7 @@ pub const RULES: [Rule; 16] = [
     },
     Rule {
         name: "folders with more than 20 sources",
-        limit: Limit::AtMost(2.0),
+        limit: Limit::AtMost(0.0),
         mark: Some(Mark::FullFolders),
         figure: |figures| count(figures, Mark::FullFolders),
     },
@@ -85,7 +85,7 @@ pub const RULES: [Rule; 16] = [
     },
     Rule {
         name: "types with `impl`s of their own in more than three files",
-        limit: Limit::AtMost(3.0),
+        limit: Limit::AtMost(1.0),
         mark: Some(Mark::SpreadTypes),
         figure: |figures| count(figures, Mark::SpreadTypes),
     },

@@ -9,12 +9,10 @@ use paint::amount::mm_from_quanta;
 use paint::layer::{Layer, SLOTS};
 use paint::painting::{Painting, PaintingError};
 use paint::session::{Outcome, PaintingSession};
-use paint::strokes::{Action, Load, SampleDecimals, Squeeze, Stroke, StrokeTool, SurfaceId};
-use web_time::Instant;
+use paint::strokes::{Action, Load, SampleDecimals, Squeeze, StrokeTool, SurfaceId};
 
-use super::command::{Command, PenSample};
+use super::command::Command;
 use super::event::{Event, KeptPainting, Picked, PickedLayer, Snapshot};
-use super::meter::stroke_message;
 use super::outbox::{is_lifted, waiting_substeps};
 use super::report::WorkerStatus;
 use super::state::PaintingState;
@@ -24,113 +22,8 @@ use super::worker::{OpenPainting, WorkerLoop};
 const PALETTE: &str = "every session of the worker has a palette";
 
 impl WorkerLoop<'_> {
-    /// Paints a slice of a stroke, or executes the next command.
-    pub(super) fn work(&mut self) -> Result<(), PaintingError> {
-        if self.playing.is_some() {
-            for question in self.inbox.take_questions() {
-                self.answer(question)?;
-            }
-            self.play()
-        } else if self.stroke().is_some() {
-            self.paint()
-        } else if let Some(command) = self.inbox.next() {
-            self.execute(command)
-        } else {
-            Ok(())
-        }
-    }
-
-    /// Continues the open stroke: adds all samples that arrived, then answers a question or paints
-    /// a slice. Any other command lifts the brush first.
-    fn paint(&mut self) -> Result<(), PaintingError> {
-        while let Some(Command::PenMove(samples)) =
-            self.inbox.next_if(|command| matches!(command, Command::PenMove(_)))
-        {
-            self.extend(&samples)?;
-        }
-        let waiting = self.open.as_ref().map_or(0, |open| waiting_substeps(open.session()));
-        if waiting == 0
-            && let Some(question) = self.inbox.next_if(Command::is_question)
-        {
-            return self.answer(question);
-        }
-        if self.inbox.next_if(|command| matches!(command, Command::PenUp)).is_some()
-            || self.inbox.next_is(|command| !command.is_question())
-        {
-            // Any other command finishes the stroke first.
-            self.lift()?;
-        }
-        self.paint_slice()
-    }
-
-    fn extend(&mut self, samples: &[PenSample]) -> Result<(), PaintingError> {
-        let Some(open) = &mut self.open else { return Ok(()) };
-        let session = &mut open.prepared.session;
-        if is_lifted(session) {
-            return Ok(());
-        }
-        for PenSample { sample, arrived } in samples {
-            match session.extend(&[*sample]) {
-                Ok(()) => self.outbox.add_sample(*arrived),
-                Err(error) if !std::mem::replace(&mut self.sample_refused, true) => {
-                    let hint = Some(Hint::new("the stroke goes on without it"));
-                    (self.send)(Event::Message { text: error.to_string(), hint, failed: true });
-                }
-                Err(_) => {}
-            }
-        }
-        session.advance(0).map(|_| ())
-    }
-
-    /// Lifts the brush of the open stroke, if one is open.
-    pub(super) fn lift(&mut self) -> Result<(), PaintingError> {
-        match &mut self.open {
-            Some(open) if open.session().open_stroke().is_some() => open.prepared.session.lift(),
-            _ => Ok(()),
-        }
-    }
-
-    /// Paints a slice of the open stroke, about 8 ms of work. Closes the stroke once all is
-    /// painted.
-    pub(super) fn paint_slice(&mut self) -> Result<(), PaintingError> {
-        let Some(open) = &mut self.open else { return Ok(()) };
-        let session = &mut open.prepared.session;
-        if session.open_stroke().is_none() {
-            return Ok(());
-        }
-        let known = session.advance(0)?;
-        let start = Instant::now();
-        let waiting = session.advance(self.meter.slice())?;
-        let now = Instant::now();
-        self.meter.add_slice(now, known - waiting, now - start);
-        let Some(stroke) = session.open_stroke() else { return Ok(()) };
-        self.outbox.follow(stroke);
-        self.picture_stale |= known > waiting;
-        self.revision += u64::from(known > waiting);
-        if stroke.is_lifted() && waiting == 0 {
-            let Stroke { brush, tool, .. } = stroke.stroke();
-            let brush = brush.clone();
-            let tool = *tool;
-            let report = session.end_stroke()?;
-            if let (Some(report), false) = (report, tool.is_paint()) {
-                // In a replay this message would come after every stroke.
-                if self.playing.is_none() {
-                    let (text, hint) = stroke_message(tool, &report.taken, session.canvas());
-                    (self.send)(Event::Message { text, hint, failed: false });
-                }
-                open.reporter.tool_ended(&brush);
-            } else if open.reporter.is_dirty_after_stroke(session, &brush)?
-                && !std::mem::replace(&mut self.dirty_reported, true)
-            {
-                (self.send)(Event::DirtyBrush(brush));
-            }
-            (self.picture_stale, self.state_stale) = (true, true);
-        }
-        Ok(())
-    }
-
     /// Executes one command while no stroke is open and nothing is played.
-    fn execute(&mut self, command: Command) -> Result<(), PaintingError> {
+    pub(super) fn execute(&mut self, command: Command) -> Result<(), PaintingError> {
         match command {
             Command::Open(origin) => self.open(origin),
             Command::Replay { script, library, pace } => self.replay(*script, &library, pace),

@@ -5,9 +5,9 @@
 //! autosaves of programs that were killed.
 //!
 //! ```text
-//! front end -- Command --> Worker: inbox -> dispatch -> PaintingSession -> paint engine
-//!     ^                                                                        |
-//!     +------- Event (state, tiles, snapshots, messages) <---------------------+
+//! front end -- Command --> Worker: open stroke or dispatch -> PaintingSession -> paint engine
+//!     ^                                                                              |
+//!     +------- Event (state, tiles, snapshots, messages) <---------------------------+
 //! ```
 //!
 //! ```
@@ -49,15 +49,14 @@ mod srgb;
 pub mod warm_up;
 mod miniature;
 mod meter;
-mod inbox;
 mod outbox;
 mod prepare;
 mod report;
 mod replay;
+pub mod thread;
 mod worker;
 mod dispatch;
 mod open;
-pub mod thread;
 mod failure;
 mod autosave;
 pub mod brushes;
@@ -71,10 +70,10 @@ pub use autosave::{Autosave, LostSession, RecoveredWork, SessionMeta, now};
 pub use command::{Command, Origin, Pace, PenSample};
 pub use event::{Event, HeadOnCanvas, KeptPainting, Picked, PickedLayer, Snapshot, TilePixels};
 pub use failure::FileFailure;
-pub use inbox::Wait;
 pub use prepare::{blank_canvas, default_brushes, default_mixing_canvas, initial_commands};
 pub use state::{
     BrushState, BrushSwatch, FilmColor, HistoryShot, HistoryShots, LayerState, MaskState,
     PaintingState, Performance, Thumbnail,
 };
-pub use thread::{Worker, WorkerOptions};
+pub use thread::Wait;
+pub use worker::{Worker, WorkerOptions};

@@ -192,8 +192,8 @@ impl WorkerLoop<'_> {
 #[cfg(test)]
 mod tests {
     use super::super::backend::Backend;
-    use super::super::inbox::Inbox;
     use super::super::prepare::blank_canvas;
+    use super::super::worker::Inbox;
     use super::*;
     use graphics::gpu::{BackendChoice, DeviceError};
     use paint::strokes::{Action, Squeeze, SurfaceId};

@@ -10,11 +10,10 @@ use serde::de::{self, Deserializer, MapAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Serialize, Serializer};
 
-use crate::amount::{share_of_256, share_of_65536};
-use crate::pigment_amounts;
+use crate::amount::{self, share_of_256, share_of_65536};
 
 /// Number of pigments that a layer can hold, each in a slot of its own.
-pub const SLOTS: usize = pigment_amounts::COUNT;
+pub const SLOTS: usize = amount::PIGMENTS;
 
 /// The pigments of a layer by slot.
 pub type Slots = [Option<PigmentId>; SLOTS];
@@ -34,7 +33,7 @@ impl Cell {
     #[inline(always)]
     #[must_use]
     pub fn volume(&self) -> u32 {
-        self.vehicle + pigment_amounts::total(&self.pigments)
+        self.vehicle + amount::total(&self.pigments)
     }
 
     /// Computes `amount * share / 65536` of each amount, rounded down.
@@ -42,7 +41,7 @@ impl Cell {
     #[must_use]
     pub fn share_of_65536(&self, share: u32) -> Self {
         let vehicle = share_of_65536(self.vehicle, share);
-        Self { pigments: pigment_amounts::share(&self.pigments, share), vehicle }
+        Self { pigments: amount::share(&self.pigments, share), vehicle }
     }
 
     /// Computes `amount * share / 256` of each amount, rounded down.
@@ -57,7 +56,7 @@ impl Cell {
     #[inline(always)]
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {
-        let pigments = pigment_amounts::sum(&self.pigments, &other.pigments);
+        let pigments = amount::sum(&self.pigments, &other.pigments);
         Self { pigments, vehicle: self.vehicle + other.vehicle }
     }
 
@@ -65,7 +64,7 @@ impl Cell {
     #[inline(always)]
     #[must_use]
     pub fn minus(&self, part: &Self) -> Self {
-        let pigments = pigment_amounts::difference(&self.pigments, &part.pigments);
+        let pigments = amount::difference(&self.pigments, &part.pigments);
         Self { pigments, vehicle: self.vehicle - part.vehicle }
     }
 
@@ -73,7 +72,7 @@ impl Cell {
     #[inline(always)]
     #[must_use]
     pub fn wrapping_plus(&self, other: &Self) -> Self {
-        let pigments = pigment_amounts::wrapping_sum(&self.pigments, &other.pigments);
+        let pigments = amount::wrapping_sum(&self.pigments, &other.pigments);
         Self { pigments, vehicle: self.vehicle.wrapping_add(other.vehicle) }
     }
 
@@ -81,7 +80,7 @@ impl Cell {
     #[inline(always)]
     #[must_use]
     pub fn wrapping_minus(&self, part: &Self) -> Self {
-        let pigments = pigment_amounts::wrapping_difference(&self.pigments, &part.pigments);
+        let pigments = amount::wrapping_difference(&self.pigments, &part.pigments);
         Self { pigments, vehicle: self.vehicle.wrapping_sub(part.vehicle) }
     }
 }

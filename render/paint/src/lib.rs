@@ -41,7 +41,6 @@
 //! Modules are listed in order of dependence: each uses only modules above it.
 
 pub mod amount;
-mod pigment_amounts;
 pub mod layer;
 pub mod optics;
 pub mod light;

@@ -17,8 +17,7 @@ use super::painters::{Quality, Sight};
 use super::scene::Scene;
 use super::timeline::{Pacer, STEPS_A_SECOND};
 use crate::failure::FileFailure;
-use crate::inbox::Wait;
-use crate::thread::{Awaited, Works};
+use crate::thread::{Awaited, Wait, Works};
 
 /// Most pictures that may be sent without being confirmed.
 const MOST_UNCONFIRMED: usize = 2;

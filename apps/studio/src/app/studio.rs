@@ -264,11 +264,6 @@ impl Studio {
         &self.tour
     }
 
-    /// Queues a command for the worker, after the requests of the panels.
-    pub fn ask(&mut self, command: Command) {
-        self.requests.push(Request::Worker(command));
-    }
-
     pub(super) fn view(&self, surface: SurfaceId) -> &SurfaceView {
         match surface {
             SurfaceId::Canvas => &self.canvas,
@@ -307,8 +302,7 @@ impl Studio {
         self.files.note_window_setup(self.window_setup());
         self.files.note_drawings(self.panels.reference.unsaved_drawings());
         for command in self.files.update(context) {
-            self.note_command(&command);
-            self.worker.ask(command);
+            self.send(command);
         }
         if let Some(StatusNote { text, hint }) = self.files.take_status() {
             match self.volumes.as_mut().filter(|_| self.shows_volumes) {
@@ -435,21 +429,6 @@ impl Studio {
                 self.requests.push(Request::File(FileRequest::Preferences));
             }
             None => {}
-        }
-    }
-
-    /// Passes the queued requests on in order. File requests wait until a painting is open.
-    pub(super) fn send_requests(&mut self) {
-        for request in std::mem::take(&mut self.requests) {
-            match (request, &self.painting) {
-                (Request::Worker(command), _) => {
-                    self.note_command(&command);
-                    self.worker.ask(command);
-                }
-                (Request::File(request), Some(painting)) => self.files.request(request, painting),
-                // No painting is open yet.
-                (request, None) => self.requests.push(request),
-            }
         }
     }
 

@@ -1,5 +1,5 @@
 //! Draws canvas, palette and reference picture with cursor, mask and drawing aids, and passes the
-//! input of pen, mouse and touch to the worker.
+//! input of pen, mouse and touch and the requests of the panels to the worker.
 
 use std::time::Duration;
 
@@ -330,8 +330,26 @@ impl Studio {
         }
     }
 
-    pub(super) fn note_command(&mut self, command: &Command) {
-        self.stroke_cut = cut_after(self.stroke_cut, command);
+    /// Queues a command for the worker, after the requests of the panels.
+    pub fn ask(&mut self, command: Command) {
+        self.requests.push(Request::Worker(command));
+    }
+
+    /// Passes the queued requests on in order. File requests wait until a painting is open.
+    pub(super) fn send_requests(&mut self) {
+        for request in std::mem::take(&mut self.requests) {
+            match (request, &self.painting) {
+                (Request::Worker(command), _) => self.send(command),
+                (Request::File(request), Some(painting)) => self.files.request(request, painting),
+                // No painting is open yet.
+                (request, None) => self.requests.push(request),
+            }
+        }
+    }
+
+    pub(super) fn send(&mut self, command: Command) {
+        self.stroke_cut = cut_after(self.stroke_cut, &command);
+        self.worker.ask(command);
     }
 
     /// Whether a command ended the open stroke before you lifted the pen. Such a stroke has no

@@ -8,8 +8,6 @@ mod transform;
 mod settings;
 mod pointer;
 
-#[cfg(not(target_arch = "wasm32"))]
-mod tablet;
 #[cfg(target_os = "linux")]
 mod x11;
 

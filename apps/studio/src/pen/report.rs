@@ -199,6 +199,38 @@ pub(super) fn filled(known: &[Option<Instant>], from: Instant, to: Instant) -> V
     times
 }
 
+/// If a timestamp maps to an instant further in the past than this, it belongs to another clock.
+#[cfg(not(target_arch = "wasm32"))]
+const STALE: Duration = Duration::from_secs(5);
+
+/// Converts timestamps to instants. The report with the smallest delay so far defines the offset
+/// between the two clocks, so time in a queue does not distort the times of a stroke.
+#[derive(Debug, Default)]
+#[cfg(not(target_arch = "wasm32"))]
+pub(super) struct StampClock {
+    /// The last timestamp in ms and its instant.
+    last: Option<(u32, Instant)>,
+}
+
+#[cfg(not(target_arch = "wasm32"))]
+impl StampClock {
+    /// Returns the instant of the timestamp `stamp_ms` (wraps at 2^32) of an event that you
+    /// received at `arrived`. The result is never later than `arrived`.
+    pub(super) fn instant(&mut self, stamp_ms: u32, arrived: Instant) -> Instant {
+        let mapped = self.last.and_then(|(stamp, instant)| {
+            // This is signed, because the timestamp may be earlier than the last one.
+            let later = i64::from(stamp_ms.wrapping_sub(stamp).cast_signed());
+            let step = Duration::from_millis(later.unsigned_abs());
+            if later < 0 { instant.checked_sub(step) } else { instant.checked_add(step) }
+        });
+        let plausible = mapped.filter(|&at| at <= arrived && arrived - at < STALE);
+        let at = plausible.unwrap_or(arrived);
+        // We update this at every event, to follow clocks that drift apart.
+        self.last = Some((stamp_ms, at));
+        at
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -234,5 +266,40 @@ mod tests {
         let outside = [90_u32, 1].map(|ms| Some(start + ms * MS));
         assert_eq!(filled(&outside, start + 5 * MS, last), [last, last]);
         assert!(filled(&[], start + 5 * MS, last).is_empty());
+    }
+
+    #[test]
+    fn times_follow_the_timestamps_whatever_the_delay() {
+        let start = Instant::now();
+        let mut clock = StampClock::default();
+        for (stamp, arrived, wanted) in [
+            (1000, 10_u32, 10_u32),
+            // These events were delayed, the last by 26 ms.
+            (1004, 40, 14),
+            (1008, 40, 18),
+            // This event had less delay than all before it.
+            (1058, 60, 60),
+            (1060, 90, 62),
+        ] {
+            let found = clock.instant(stamp, start + arrived * MS);
+            assert_eq!(found, start + wanted * MS, "{stamp}");
+        }
+    }
+
+    #[test]
+    fn timestamps_may_wrap_and_jump() {
+        let start = Instant::now();
+        let mut clock = StampClock::default();
+        for (stamp, arrived, wanted) in [
+            (u32::MAX, 0_u32, 0_u32),
+            (4, 20, 5),
+            // This timestamp comes from an unrelated clock.
+            (90_000_000, 30, 30),
+            (7, 40, 40),
+            (8, 9_000, 9_000),
+        ] {
+            let found = clock.instant(stamp, start + arrived * MS);
+            assert_eq!(found, start + wanted * MS, "{stamp}");
+        }
     }
 }

@@ -17,8 +17,7 @@ use x11rb::protocol::xinput::{self, ConnectionExt as _, DeviceClassData, DeviceT
 use x11rb::protocol::xproto::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
 
-use super::report::{Device, PointerState, Report, ReportKind, Stamp};
-use super::tablet::StampClock;
+use super::report::{Device, PointerState, Report, ReportKind, Stamp, StampClock};
 
 const ALL_DEVICES: u16 = 0;
 

@@ -1,18 +1,21 @@
-//! Brushes of a painting and the paint on them, heaps of paint from a tube, and scraping paint
-//! away.
+//! Brushes of a painting and the paint on them, whole strokes, heaps of paint from a tube, and
+//! scraping paint away.
 
 use std::ops::Range;
 
 use graphics::tile::Rect;
 
 use super::failure::PaintingError;
+use super::open_stroke::{OpenStroke, StrokeReport};
 use super::state::{Brush, HIGHEST, Painting};
 use crate::amount::{MAX_COLUMN, QUANTA_PER_CELL, mm_from_quanta, quanta_from_mm};
-use crate::brush::{Head, HeadShape};
+use crate::brush::{Head, HeadShape, StrokeTool};
 use crate::engine::BrushId;
 use crate::layer::{Cell, Layer, SLOTS};
 use crate::motion::press::CROWDED_VOLUME;
 use crate::pose::Sample;
+use crate::stroke::{SampleDecimals, StrokeError};
+use crate::strokes::Stroke;
 
 /// Maximum paint in a cell of a head after loading, in quanta: 32 cell widths, far more than
 /// clings to bristles, and little enough that no pile reaches [`MAX_COLUMN`].
@@ -205,6 +208,71 @@ impl Painting {
             painting.wash(brush)?;
             Ok(paint)
         })
+    }
+}
+
+impl Painting {
+    /// Paints a whole stroke. One undo takes it back, including the paint that moved
+    /// between brush and canvas.
+    ///
+    /// # Errors
+    /// [`PaintingError`] for impossible samples, before anything is painted, or if the
+    /// device was lost.
+    ///
+    /// # Panics
+    /// If there is no such brush, or a stroke is open.
+    pub fn stroke(
+        &mut self,
+        brush: BrushId,
+        samples: &[Sample],
+    ) -> Result<StrokeReport, PaintingError> {
+        self.stroke_as(StrokeTool::Paint, brush, samples)
+    }
+
+    /// Works the paint with the head of a brush as `tool`, like [`Painting::stroke`]. The paint on
+    /// the brush stays as it is.
+    pub(crate) fn stroke_as(
+        &mut self,
+        tool: StrokeTool,
+        brush: BrushId,
+        samples: &[Sample],
+    ) -> Result<StrokeReport, PaintingError> {
+        if samples.is_empty() {
+            return Err(StrokeError::Empty.into());
+        }
+        let mut stroke = self.new_stroke(tool, brush)?;
+        stroke.extend(samples)?;
+        stroke.open(self, brush, None)?;
+        stroke.finish(self)
+    }
+
+    /// Begins a stroke of a brush as `tool` whose samples come later.
+    ///
+    /// # Errors
+    /// [`PaintingError`] for a tool out of range, or if the device was lost.
+    ///
+    /// # Panics
+    /// If there is no such brush, or a stroke is open.
+    pub fn begin_stroke(
+        &mut self,
+        tool: StrokeTool,
+        brush: BrushId,
+    ) -> Result<OpenStroke, PaintingError> {
+        let mut stroke = self.new_stroke(tool, brush)?;
+        stroke.open(self, brush, None)?;
+        Ok(stroke)
+    }
+
+    fn new_stroke(&self, tool: StrokeTool, brush: BrushId) -> Result<OpenStroke, PaintingError> {
+        let size_mm = self.brushes[brush.0].head.size_mm();
+        let stroke = Stroke { tool, ..Stroke::default() };
+        OpenStroke::new(self.cell_mm, size_mm, stroke, SampleDecimals::RECORDING)
+    }
+
+    /// Whether a stroke is open.
+    #[must_use]
+    pub fn stroke_open(&self) -> bool {
+        self.stroke_brush.is_some()
     }
 }
 

@@ -7,16 +7,15 @@
 //! as it is painted.
 
 mod failure;
+mod views;
 mod state;
-mod brushes;
 mod open_stroke;
-mod layers;
-mod pictures;
+mod brushes;
 mod actions;
 
+pub use actions::MERGE_TOLERANCE;
 pub use brushes::TipLoad;
 pub use failure::PaintingError;
-pub use layers::MERGE_TOLERANCE;
 pub use open_stroke::{OpenStroke, StrokeReport, TakenPaint};
 pub use state::{Brush, Painting, State, UNDO_BYTES};
 

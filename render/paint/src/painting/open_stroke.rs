@@ -1,5 +1,4 @@
-//! The open stroke: one state machine from the first sample to the last sub-step, and whole
-//! strokes.
+//! The open stroke: one state machine from the first sample to the last sub-step.
 //!
 //! The head bends through one batch of sub-steps while the batch before is painted. A tool works
 //! with a clean head: the paint of the brush is set aside, and the paint that the tool takes off is
@@ -383,71 +382,6 @@ fn note_bed(engine: &mut PaintEngine, noted: &mut TileSet, rect: Rect) -> Result
         }
     }
     Ok(())
-}
-
-impl Painting {
-    /// Paints a whole stroke. One undo takes it back, including the paint that moved
-    /// between brush and canvas.
-    ///
-    /// # Errors
-    /// [`PaintingError`] for impossible samples, before anything is painted, or if the
-    /// device was lost.
-    ///
-    /// # Panics
-    /// If there is no such brush, or a stroke is open.
-    pub fn stroke(
-        &mut self,
-        brush: BrushId,
-        samples: &[Sample],
-    ) -> Result<StrokeReport, PaintingError> {
-        self.stroke_as(StrokeTool::Paint, brush, samples)
-    }
-
-    /// Works the paint with the head of a brush as `tool`, like [`Painting::stroke`]. The paint on
-    /// the brush stays as it is.
-    pub(crate) fn stroke_as(
-        &mut self,
-        tool: StrokeTool,
-        brush: BrushId,
-        samples: &[Sample],
-    ) -> Result<StrokeReport, PaintingError> {
-        if samples.is_empty() {
-            return Err(StrokeError::Empty.into());
-        }
-        let mut stroke = self.new_stroke(tool, brush)?;
-        stroke.extend(samples)?;
-        stroke.open(self, brush, None)?;
-        stroke.finish(self)
-    }
-
-    /// Begins a stroke of a brush as `tool` whose samples come later.
-    ///
-    /// # Errors
-    /// [`PaintingError`] for a tool out of range, or if the device was lost.
-    ///
-    /// # Panics
-    /// If there is no such brush, or a stroke is open.
-    pub fn begin_stroke(
-        &mut self,
-        tool: StrokeTool,
-        brush: BrushId,
-    ) -> Result<OpenStroke, PaintingError> {
-        let mut stroke = self.new_stroke(tool, brush)?;
-        stroke.open(self, brush, None)?;
-        Ok(stroke)
-    }
-
-    fn new_stroke(&self, tool: StrokeTool, brush: BrushId) -> Result<OpenStroke, PaintingError> {
-        let size_mm = self.brushes[brush.0].head.size_mm();
-        let stroke = Stroke { tool, ..Stroke::default() };
-        OpenStroke::new(self.cell_mm, size_mm, stroke, SampleDecimals::RECORDING)
-    }
-
-    /// Whether a stroke is open.
-    #[must_use]
-    pub fn stroke_open(&self) -> bool {
-        self.stroke_brush.is_some()
-    }
 }
 
 /// Most sub-steps that go to the backend together: enough to hide the cost of a call.

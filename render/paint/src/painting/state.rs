@@ -1,23 +1,25 @@
-//! State of a painting while it is worked on, its undo and redo, and the parts of its pictures that
-//! are out of date.
+//! A painting while it is worked on: its state and paint, its pictures, and undo and redo.
 
 use std::sync::Arc;
 
-use graphics::tile::{Rect, Tile, TileSet};
+use graphics::field::Field;
+use graphics::tile::{Rect, TileSet};
 use pigment::library::PigmentLibrary;
 
 use super::failure::PaintingError;
+use super::views::{SECOND, Views, view};
 use crate::amount::{MAX_COLUMN, mm_from_quanta};
 use crate::brush::{Head, Relief};
 use crate::document::{Document, DryLayer, LayerId, Lighting, Medium, Slots};
-use crate::engine::{BrushId, PaintEngine};
+use crate::engine::{BrushId, PaintEngine, View};
 use crate::ground::Ground;
 use crate::history::{History, Restored};
 use crate::layer::{DryLayerState, Layer, SLOTS, distinct_ids};
 use crate::light::Light;
 use crate::mask::Mask;
 use crate::motion::MotionConstants;
-use crate::shade::reach;
+use crate::optics::Scene;
+use crate::scene::{Appearance, PixelsPerCell, SpectralStack, fine_picture};
 
 /// Properties of a painting besides its paint. An undo restores them with the paint.
 #[derive(Debug, Clone, PartialEq)]
@@ -314,86 +316,137 @@ fn check_heights(document: &Document) -> Result<(), PaintingError> {
     Ok(())
 }
 
-/// Tiles of one picture that are out of date or were not reported.
-#[derive(Debug, Default)]
-pub(super) struct PendingTiles {
-    /// Tiles whose ground and dry paint must be baked again.
-    pub(super) dry: TileSet,
-    /// Tiles whose wet paint must be rendered.
-    pub(super) wet: TileSet,
-    /// Tiles rendered since changes were last reported.
-    pub(super) unreported: TileSet,
-}
-
-/// A second light and the state of its picture.
-#[derive(Debug)]
-pub(super) struct SecondLight {
-    pub(super) lighting: Lighting,
-    pub(super) light: Arc<Light>,
-    pub(super) pending: PendingTiles,
-}
-
-/// State of the pictures of a painting.
-#[derive(Debug)]
-pub(super) struct Views {
-    bounds: Rect,
-    /// How far shading looks, in cells.
-    reach: usize,
-    pub(super) first: PendingTiles,
-    pub(super) second: Option<SecondLight>,
-}
-
-impl PendingTiles {
-    /// All tiles of a canvas of `bounds`.
-    pub(super) fn all(bounds: Rect) -> Self {
-        let all = TileSet::all(bounds);
-        Self { dry: all.clone(), wet: all, unreported: TileSet::default() }
+impl Painting {
+    /// Renders the parts of the picture that are out of date, and returns the tiles rendered since
+    /// the last call. If `second` is true, this is the picture under the second light.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost, or its memory does not suffice for a second
+    /// picture.
+    ///
+    /// # Panics
+    /// With `second`, if there is no second light.
+    pub fn refresh(&mut self, second: bool) -> Result<TileSet, PaintingError> {
+        let view = view(second);
+        let scene = self.scene(view);
+        self.views.render(&mut self.engine, view, &scene)?;
+        Ok(self.views.pending_of(view).unreported.take())
     }
 
-    /// Marks dry and wet paint of all tiles.
-    pub(super) fn mark_all(&mut self, bounds: Rect) {
-        self.dry = TileSet::all(bounds);
-        self.wet = TileSet::all(bounds);
-    }
-}
-
-impl Views {
-    /// One picture that was not rendered yet.
-    pub(super) fn new(bounds: Rect, cell_mm: f64) -> Self {
-        Self { bounds, reach: reach(cell_mm), first: PendingTiles::all(bounds), second: None }
-    }
-
-    fn each(&mut self) -> impl Iterator<Item = &mut PendingTiles> {
-        let second = self.second.as_mut().map(|second| &mut second.pending);
-        std::iter::once(&mut self.first).chain(second)
-    }
-
-    /// Marks `rect` after its wet paint changed.
-    pub(super) fn mark_wet(&mut self, rect: Rect) {
-        let reach = rect.grown(self.reach, self.bounds);
-        self.each().for_each(|pending| pending.wet.insert(reach));
+    /// The picture in `rect` as last rendered, in linear sRGB. With `second`, the picture
+    /// under the second light. Only these cells are read from the device.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    ///
+    /// # Panics
+    /// If `rect` is not within the canvas or, with `second`, if there is no second light.
+    pub fn picture_in(
+        &mut self,
+        second: bool,
+        rect: Rect,
+    ) -> Result<Field<[f32; 4]>, PaintingError> {
+        assert!(!second || self.views.second.is_some(), "{SECOND}");
+        Ok(self.engine.picture_in(view(second), rect)?)
     }
 
-    /// Marks `tile` after its wet paint changed.
-    pub(super) fn mark_wet_tile(&mut self, tile: Tile) {
-        self.mark_wet(tile.rect(self.bounds));
+    /// The picture in linear sRGB, white at 1. Only the parts that are out of date are
+    /// rendered.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    pub fn picture(&mut self) -> Result<Field<[f32; 4]>, PaintingError> {
+        let scene = self.scene(View::First);
+        self.views.render(&mut self.engine, View::First, &scene)?;
+        Ok(self.engine.picture()?)
     }
 
-    /// Marks `tile` after its dry paint changed.
-    pub(super) fn mark_dry_tile(&mut self, tile: Tile) {
-        self.each().for_each(|pending| _ = pending.dry.insert_tile(tile));
+    /// The picture in linear sRGB with several pixels a cell, see [`fine_picture`]. With one
+    /// pixel a cell it is [`Painting::picture`].
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    pub fn fine_picture(
+        &mut self,
+        pixels: PixelsPerCell,
+    ) -> Result<Field<[f32; 4]>, PaintingError> {
+        if pixels == PixelsPerCell::default() {
+            return self.picture();
+        }
+        let scene = self.scene(View::First);
+        Ok(fine_picture(&self.document()?, &scene, pixels))
     }
 
-    /// Marks all tiles after dry paint or a pigment changed everywhere.
-    pub(super) fn mark_all(&mut self) {
-        let bounds = self.bounds;
-        self.each().for_each(|pending| pending.mark_all(bounds));
+    /// The picture in linear sRGB without shading of the relief and without gloss.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    pub fn flat_picture(&mut self) -> Result<Field<[f32; 4]>, PaintingError> {
+        let mut scene = self.scene(View::First);
+        let lamp = &mut scene.lamp;
+        lamp.relief = 0.0;
+        for gloss in [&mut lamp.wet, &mut lamp.dry, &mut lamp.ground] {
+            gloss.strength = 0.0;
+        }
+        let all = TileSet::all(self.engine.bounds());
+        self.views.first.wet = all.clone();
+        let rendered = self.views.render(&mut self.engine, View::First, &scene);
+        self.views.first.wet = all;
+        rendered?;
+        Ok(self.engine.picture()?)
     }
 
-    /// Marks the wet paint of all tiles after the gloss changed.
-    pub(super) fn mark_all_wet(&mut self) {
-        let bounds = self.bounds;
-        self.each().for_each(|pending| pending.wet = TileSet::all(bounds));
+    /// Mean reflectance of the cells of `rect` on the grid of the library, as an instrument
+    /// would measure it: in f64, without relief and gloss.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    ///
+    /// # Panics
+    /// If `rect` is empty or not within the canvas.
+    pub fn reflectance_in(&mut self, rect: Rect) -> Result<Vec<f64>, PaintingError> {
+        assert!(!rect.is_empty(), "a reflectance of no cells");
+        let dry = (0..self.state.dry.len()).map(|index| self.engine.dry_layer_in(index, rect));
+        let mut layers = dry.collect::<Result<Vec<_>, _>>()?;
+        layers.push(self.engine.wet_in(rect)?);
+        let dry = self.dry_states();
+        let stack = SpectralStack::full(&self.appearance(&dry, &self.state.lighting));
+        let cells = rect.width * rect.height;
+        let mut mean = vec![0.0; stack.count()];
+        for index in 0..cells {
+            let pigments = layers.iter().map(|layer| layer.pigments.values()[index]);
+            for (mean, one) in mean.iter_mut().zip(stack.measured_reflectance(pigments)) {
+                *mean += one / cells as f64;
+            }
+        }
+        Ok(mean)
+    }
+
+    fn dry_states(&self) -> Vec<(Slots, f64)> {
+        self.state.dry.iter().map(|dry| (dry.slots, dry.shown_opacity())).collect()
+    }
+
+    fn appearance<'a>(&'a self, dry: &'a [(Slots, f64)], lighting: &'a Lighting) -> Appearance<'a> {
+        Appearance {
+            library: &self.library,
+            medium: &self.state.medium,
+            ground: &self.ground,
+            cell_mm: self.cell_mm,
+            dry,
+            slots: &self.state.slots,
+            lighting,
+        }
+    }
+
+    fn scene(&self, view: View) -> Scene {
+        let (lighting, light) = match (view, &self.views.second) {
+            (View::First, _) => (&self.state.lighting, &self.light),
+            (View::Second, second) => {
+                let second = second.as_ref().expect(SECOND);
+                (&second.lighting, &second.light)
+            }
+        };
+        self.appearance(&self.dry_states(), lighting).scene(light)
     }
 }
 
@@ -558,5 +611,72 @@ impl Painting {
         }
         restored.tiles.iter().for_each(|tile| self.views.mark_wet_tile(tile));
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::brush::HeadShape;
+    use crate::document::{Document, Medium};
+    use crate::engine::PaintEngine;
+    use crate::ground::GroundSpec;
+    use crate::layer::SLOTS;
+    use crate::pose::Sample;
+    use pigment::PigmentId;
+    use pigment::library::PigmentLibrary;
+
+    fn opened(document: Document) -> Painting {
+        let engine = PaintEngine::on_cpu(document.ground.height.clone());
+        Painting::open(document, engine, 1 << 24).unwrap()
+    }
+
+    fn bare() -> Painting {
+        let library = PigmentLibrary::van_gogh_oils();
+        let ground = GroundSpec::default().build(300, 200, 0.1, &library).unwrap();
+        let medium = Medium::default();
+        let lighting = Lighting::default();
+        let slots = std::array::from_fn(|slot| Some(PigmentId(slot)));
+        opened(Document::bare("", 0.1, ground, library, medium, slots, lighting))
+    }
+
+    /// Asserts that the picture equals the picture of the same painting opened anew.
+    fn assert_picture(painting: &mut Painting, after: &str) {
+        let shown = painting.picture().unwrap();
+        let whole = opened(painting.document().unwrap()).picture().unwrap();
+        assert!(shown == whole, "after {after}");
+    }
+
+    #[test]
+    fn an_updated_picture_equals_a_new_one() {
+        let mut painting = bare();
+        assert_picture(&mut painting, "nothing");
+        let brush = painting.add_brush(HeadShape::Flat, 3.0).unwrap();
+        for end_mm in [14.0, 25.0] {
+            painting.load(brush, &[1.0; SLOTS], 0.1, 0.3).unwrap();
+            painting.stroke(brush, &[sample(0.0, 3.0), sample(1.0, end_mm)]).unwrap();
+            assert_picture(&mut painting, "a stroke");
+            assert!(painting.dry(0.5).unwrap(), "there is paint to dry");
+            assert_picture(&mut painting, "drying");
+        }
+        let turned = Lighting { azimuth_deg: 90.0, ..Lighting::default() };
+        painting.relight(turned).unwrap();
+        assert_picture(&mut painting, "turning the lamp");
+        for undone in ["the lamp", "the drying", "the stroke", "the first drying"] {
+            assert!(painting.undo().unwrap(), "{undone}");
+            assert_picture(&mut painting, &format!("undoing {undone}"));
+        }
+    }
+
+    fn sample(seconds: f64, x_mm: f64) -> Sample {
+        Sample {
+            seconds,
+            x_mm,
+            y_mm: 6.0,
+            pressure: 0.7,
+            tilt_x_deg: 10.0,
+            tilt_y_deg: 0.0,
+            twist_deg: 90.0,
+        }
     }
 }

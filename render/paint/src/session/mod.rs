@@ -20,7 +20,6 @@
 mod history;
 mod state;
 mod actions;
-mod open_stroke;
 mod kept;
 
 #[cfg(test)]
