@@ -1,20 +1,9 @@
-//! Options for the cameras that see a subject, for an animation, and for a timelapse of a script. This
-//! file also opens and writes the files of a timelapse.
+//! Options for the cameras that see a subject, for an animation, and for a timelapse of a script.
 
-use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
-use graphics::export::{AnimationFormat, FrameRate};
-use paint::session::PaintingSession;
-use paint::strokes::StrokeScript;
-use paint::timelapse::{Interval, Timelapse, TimelapseFiles, TimelapseSettings};
-use pictures::{AnimationRequest, LEAST_PX, MOST_FRAMES, MOST_PX, ViewRequest, animation_format};
-
-use crate::console::Console;
-use crate::failure::{Context, Result};
-use crate::output::{Output, OutputFolder};
-use crate::progress::Progress;
+use pictures::{AnimationRequest, LEAST_PX, MOST_FRAMES, MOST_PX, TimelapseRequest, ViewRequest};
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Subject")]
@@ -76,9 +65,6 @@ impl AnimationOptions {
     }
 }
 
-/// Steps of the progress bar.
-const STEPS: usize = 1000;
-
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Timelapse")]
 pub(crate) struct TimelapseOptions {
@@ -118,95 +104,20 @@ pub(crate) struct TimelapseOptions {
     timelapse_undone: bool,
 }
 
-/// A timelapse. We have checked that you can write its files.
-pub(crate) struct OpenTimelapse {
-    settings: TimelapseSettings,
-    files: TimelapseFiles,
-}
-
-/// Figures of a timelapse that was written.
-pub(crate) struct TimelapseReport {
-    pub(crate) frames: usize,
-    /// Number of frames that existed already.
-    pub(crate) found: usize,
-    /// Width and height in pixels.
-    pub(crate) size: (usize, usize),
-}
-
 impl TimelapseOptions {
-    /// Checks settings and files. Returns `None` if no timelapse is requested. `writes` says
-    /// whether another output of the verb already writes this file.
-    pub(crate) fn open(
-        &self,
-        inputs: &[PathBuf],
-        writes: impl Fn(&Output) -> bool,
-    ) -> Result<Option<OpenTimelapse>> {
-        let beside = self.timelapse.as_ref().map(|path| path.with_extension("frames"));
-        let Some(frames) = self.timelapse_frames.clone().or(beside) else { return Ok(None) };
-        let interval = match (self.timelapse_every, self.timelapse_seconds) {
-            (Some(count), _) => Interval::Actions(count),
-            (None, Some(seconds)) => Interval::Seconds(seconds),
-            (None, None) => Interval::Frames(self.timelapse_count),
-        };
-        let longest_px = self.timelapse_size;
-        let with_undone = self.timelapse_undone;
-        let settings = TimelapseSettings { interval, longest_px, with_undone };
-        settings.check().context(|| "the timelapse")?;
-        let rate = FrameRate::new(self.timelapse_rate)
-            .context(|| "--timelapse-rate takes another value")?;
-        let animation = self.timelapse.as_deref();
-        let animation = animation.map(|path| file(path, inputs, writes)).transpose()?;
-        OutputFolder::open(&frames, inputs)?;
-        let hold_seconds = self.timelapse_hold;
-        let files = TimelapseFiles { animation, frames, keep_frames: true, rate, hold_seconds };
-        files.check().context(|| "the timelapse")?;
-        Ok(Some(OpenTimelapse { settings, files }))
-    }
-}
-
-fn file(
-    path: &Path,
-    inputs: &[PathBuf],
-    writes: impl Fn(&Output) -> bool,
-) -> Result<(PathBuf, AnimationFormat)> {
-    let format = animation_format(path)?;
-    let output = Output::open(path, inputs)?;
-    if writes(&output) {
-        return Err(output.used_twice().into());
-    }
-    Ok((path.to_owned(), format))
-}
-
-impl OpenTimelapse {
-    /// Plans the timelapse of `script`.
-    pub(crate) fn plan<'a>(&self, script: &'a StrokeScript) -> Result<Timelapse<'a>> {
-        Timelapse::new(script, self.settings).context(|| "the timelapse")
-    }
-
-    /// Plays `timelapse` on `session`, which must be as its script begins, and writes the files.
-    pub(crate) fn write(
-        &self,
-        timelapse: &Timelapse<'_>,
-        session: &mut PaintingSession,
-        console: &mut Console<'_>,
-    ) -> Result<TimelapseReport> {
-        let bar = Progress::new(STEPS, "timelapse", console.shows_progress());
-        let mut shown = 0;
-        let found = timelapse.write(session, &self.files, |done| {
-            while shown < (done * STEPS as f64) as usize {
-                bar.step();
-                shown += 1;
-            }
-            ControlFlow::Continue(())
-        });
-        bar.done();
-        let found = found?.unwrap_or(0);
-        console.wrote(&self.files.frames)?;
-        if let Some((path, _)) = &self.files.animation {
-            console.wrote(path)?;
+    /// The timelapse that these options ask for.
+    pub(crate) fn request(&self) -> TimelapseRequest {
+        let another = self.timelapse_every.is_some() || self.timelapse_seconds.is_some();
+        TimelapseRequest {
+            file: self.timelapse.clone(),
+            frames: self.timelapse_frames.clone(),
+            count: (!another).then_some(self.timelapse_count),
+            every: self.timelapse_every,
+            seconds: self.timelapse_seconds,
+            size: self.timelapse_size,
+            rate: self.timelapse_rate,
+            hold: self.timelapse_hold,
+            undone: self.timelapse_undone,
         }
-        let frames = timelapse.frames();
-        let size = timelapse.size(session);
-        Ok(TimelapseReport { frames, found, size })
     }
 }

@@ -79,8 +79,8 @@ impl EngineOptions {
         self.backend.device()
     }
 
-    /// Memory for undo in bytes.
-    pub(crate) fn undo_bytes(&self) -> u64 {
-        self.undo_memory << 20
+    /// Memory for undo in MiB.
+    pub(crate) fn undo_memory(&self) -> u64 {
+        self.undo_memory
     }
 }

@@ -123,10 +123,10 @@ fn message_of(error: &(dyn Error + 'static)) -> String {
 }
 
 /// The option of a setting.
-fn option_of(name: &str) -> String {
+pub(crate) fn option_of(name: &str) -> String {
     match name {
         "brushes_mm" => "--brushes".to_owned(),
-        name => format!("--{}", name.replace('_', "-")),
+        name => format!("--{}", name.replace(['_', '.'], "-")),
     }
 }
 

@@ -12,7 +12,7 @@ use paint::technique::Stage;
 use crate::console::Console;
 use crate::failure::Result;
 
-pub(crate) use documents::file::{create_folder, is_stream};
+pub(crate) use documents::file::is_stream;
 
 /// A folder for outputs, checked to be writable ([`file::OutputFolder`]).
 pub(crate) struct OutputFolder(file::OutputFolder);

@@ -7,7 +7,10 @@ use artmap::{
     synthesis::SynthesisError,
     texel_file::TexelFileError,
 };
-use calibrate::{BackingError, BackingTextError, library::LibraryError};
+use calibrate::{
+    BackingError, BackingTextError,
+    library::{LibraryError, RecipeError},
+};
 use documents::{
     Cancelled,
     file::{FileError, OutputError},
@@ -23,8 +26,15 @@ use graphics::{
     picture::PhotographError,
 };
 use paint::{
-    document::PaletteError, export::PaintingExportError, ground::GroundError,
-    light::PaintLightError, painting::PaintingError, scene::PixelsPerCellError,
+    document::PaletteError,
+    export::PaintingExportError,
+    file::PaintingFileError,
+    ground::GroundError,
+    light::PaintLightError,
+    painting::PaintingError,
+    scene::PixelsPerCellError,
+    strokes::{ScriptError, ScriptStartError},
+    timelapse::TimelapseError,
 };
 use painterly::{CompositingError, PainterError, RegionsError, guides::GuidesError};
 use spectra::ViewingError;
@@ -82,6 +92,12 @@ impl SettingError {
     ) -> Self {
         let hint = cause.hint();
         Self { hint, cause: Some(Box::new(cause)), ..Self::of(key, reason, "") }
+    }
+
+    /// The setting with which the message begins.
+    #[must_use]
+    pub fn key(&self) -> Option<&str> {
+        self.key.as_deref()
     }
 
     /// The message with settings as a program shows them, such as options of a command line.
@@ -241,9 +257,45 @@ pub enum PictureError {
     /// A picture cannot have this number of pixels per cell.
     #[error(transparent)]
     PixelsPerCell(#[from] PixelsPerCellError),
+    /// A library has no pigment of this name.
+    #[error(transparent)]
+    Recipe(#[from] RecipeError),
+    /// The library of a script that names none cannot be read.
+    #[error("the default library")]
+    #[hint(inner)]
+    #[fault(inner)]
+    DefaultLibrary(#[source] LibraryError),
+    /// A stored painting cannot be read or made.
+    #[error(transparent)]
+    PaintingFile(#[from] PaintingFileError),
+    /// A script is invalid.
+    #[error(transparent)]
+    Script(#[from] ScriptError),
+    /// A script cannot begin.
+    #[error(transparent)]
+    ScriptStart(#[from] ScriptStartError),
+    /// A timelapse cannot be made.
+    #[error(transparent)]
+    Timelapse(#[from] TimelapseError),
+    /// A part of the work fails, for example an action of a script.
+    #[error("{part}")]
+    #[hint(inner = error)]
+    #[fault(inner = error)]
+    Within {
+        /// Name of the part.
+        part: String,
+        /// Why it fails.
+        #[source]
+        error: Box<PictureError>,
+    },
 }
 
 impl PictureError {
+    /// The error of the part of the work that has this name.
+    pub(crate) fn within(self, part: impl Into<String>) -> Self {
+        Self::Within { part: part.into(), error: Box::new(self) }
+    }
+
     /// The error for a path of the camera without a frame.
     pub(crate) fn no_frames() -> Self {
         let message = "the camera path has no frames".to_owned();

@@ -46,6 +46,31 @@ pub enum Note {
 /// Hears each [`Note`] when it happens.
 pub type Listener<'a> = dyn FnMut(Note) + 'a;
 
+/// Notes of a job by their kind.
+#[derive(Debug, Default)]
+pub(crate) struct Notes {
+    /// Remarks on what was read or chosen, and on colours that a file cannot hold.
+    pub(crate) remarks: Vec<String>,
+    /// Files and folders that were written, each once.
+    pub(crate) files: Vec<PathBuf>,
+    /// The content of a file whose path is `-`.
+    pub(crate) streamed: Option<Vec<u8>>,
+}
+
+impl Notes {
+    /// Adds a note and passes it on.
+    pub(crate) fn pass(&mut self, note: Note, listener: &mut Listener<'_>) {
+        match &note {
+            Note::Remark(remark) => self.remarks.push(remark.to_string()),
+            Note::Library { .. } => {}
+            Note::Wrote(path) if self.files.contains(path) => {}
+            Note::Wrote(path) => self.files.push(path.clone()),
+            Note::Streamed(content) => self.streamed = Some(content.clone()),
+        }
+        listener(note);
+    }
+}
+
 /// Wavelengths of a spectral picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]

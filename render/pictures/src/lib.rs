@@ -37,6 +37,8 @@
 //! |---|---|
 //! | paint a picture, and write its files | [`PictureRequest::run`] |
 //! | hear of each file when it is written | [`PictureRequest::open`], [`PictureJob::paint`] |
+//! | show a stored painting under another light | [`RelightRequest::run`] |
+//! | paint a script of strokes, and a timelapse of it | [`ScriptRequest::run`] |
 //! | write the files of a painting | [`ExportRequest::open`] |
 //! | frames that an interrupted run continues | [`AnimationRequest::open`] |
 //! | a subject with its cameras | [`ViewRequest::subject`] |
@@ -55,6 +57,9 @@ mod watercolor_job;
 mod painterly_job;
 mod strokes_job;
 mod job;
+mod relight;
+mod timelapse;
+mod script;
 
 pub use animation::{Animation, AnimationRequest, FramesDigest, Recording, animation_format};
 pub use brushwork::style_of;
@@ -63,13 +68,16 @@ pub use exports::{
     Bands, ExportRequest, Listener, Note, OpenExports, PX_MM, StageFolder, gamut_remark,
 };
 pub use job::PictureJob;
+pub use relight::{DryLayerOutcome, LayerOutcome, RelightJob, RelightOutcome, RelightRequest};
 pub use request::{
     Device, PainterlyRequest, PictureOutcome, PictureRequest, PigmentRequest, StrokesRequest,
     TechniqueOutcome, TechniqueRequest, WatercolorRequest,
 };
+pub use script::{PlayedSession, ScriptJob, ScriptOutcome, ScriptRequest};
 pub use style::{
     StyleRequest, listed, name_in_recipe, palette, pigment_names, text_of, toml_of_change,
 };
 pub use subject::{
     FARTHEST_DEG, LEAST_PX, MOST_FRAMES, MOST_PX, PictureViews, Subject, ViewRequest, picture_turns,
 };
+pub use timelapse::{TimelapseOutcome, TimelapseRequest};

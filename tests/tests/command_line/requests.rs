@@ -6,7 +6,7 @@ use calibrate::quadrature::QuadratureRequest;
 use calibrate::{FitRequest, ValidationRequest};
 use maps::MapRequest;
 use maps::cube::CubeOptions;
-use pictures::PictureRequest;
+use pictures::{PictureRequest, RelightRequest, ScriptRequest};
 use reports::ReportRequest;
 use schemars::SchemaGenerator;
 use schemars::generate::SchemaSettings;
@@ -26,6 +26,8 @@ fn schema() -> Value {
     generator.subschema_for::<QuadratureRequest>();
     generator.subschema_for::<ReportRequest>();
     generator.subschema_for::<PictureRequest>();
+    generator.subschema_for::<RelightRequest>();
+    generator.subschema_for::<ScriptRequest>();
     generator.subschema_for::<MapRequest>();
     generator.subschema_for::<CubeOptions>();
     json!({

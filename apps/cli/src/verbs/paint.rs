@@ -1,36 +1,25 @@
 //! `impasto paint` paints a recorded script. With `--from` it paints a photograph in strokes, or
 //! separates it into pigments if you ask for this.
 
-use std::collections::BTreeSet;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use calibrate::library::PigmentLibrary;
 use clap::Args;
 use documents::{counted, counted_as};
-use graphics::export::{PictureFormat, picture_file};
-use paint::document::Document;
-use paint::file;
 use paint::ground::GroundKind;
-use paint::painting::Painting;
 use paint::separation::ColorErrors;
-use paint::session::{PaintingSession, ReplayError, ReplayReport};
-use paint::strokes::{Action, ScriptLibrary, SideTable, StrokeScript};
+use paint::session::ReplayReport;
 use pictures::{
-    PictureOutcome, PictureRequest, PigmentRequest, StrokesRequest, TechniqueOutcome,
-    TechniqueRequest, gamut_remark,
+    PictureError, PictureOutcome, PictureRequest, PigmentRequest, PlayedSession, ScriptOutcome,
+    ScriptRequest, StrokesRequest, TechniqueOutcome, TechniqueRequest, TimelapseOutcome,
 };
-use serde_json::{Map, Value, json};
+use serde_json::json;
 
-use crate::animation::{TimelapseOptions, TimelapseReport};
+use crate::animation::TimelapseOptions;
 use crate::console::Console;
 use crate::engine::EngineOptions;
-use crate::failure::{Context, Failure, Result};
-use crate::library_choice::{named_or_default, quietly_chosen};
-use crate::output::{Output, OutputFolder, create_folder};
-use crate::pictures::{Exports, grounds, painted};
-use crate::progress::Progress;
-use crate::readings::library;
+use crate::failure::{Failure, Result};
+use crate::library_choice::{VARIABLE, default_path, named_or_default};
+use crate::pictures::{Exports, grounds, heard, painted};
 
 /// Paint a script of strokes, or a photograph, with calibrated pigments
 ///
@@ -82,7 +71,7 @@ impl Paint {
             }
         }
         match script {
-            Some(script) => self.script(&script, console),
+            Some(script) => self.script(script, console),
             None => {
                 let outcome = painted(&self.request()?, console)?;
                 report(&outcome, self.json, console)
@@ -105,107 +94,42 @@ impl Paint {
         Ok(PictureRequest { pigments, exports, device: self.engine.device(), ..request })
     }
 
-    fn script(self, path: &Path, console: &mut Console<'_>) -> Result<()> {
-        let name = path.display().to_string();
-        let bytes = documents::file::read(path)?;
-        let mut script = StrokeScript::from_json(&name, &bytes)?;
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-        let folder = folder.unwrap_or(Path::new(".")).to_owned();
-        let start = self.start(&script, &folder)?;
-        let library = match &start {
-            Some((_, start, _)) => start.library.clone(),
-            None => self.script_library(&script, &folder, console)?,
+    fn script(self, script: PathBuf, console: &mut Console<'_>) -> Result<()> {
+        let request = ScriptRequest {
+            script,
+            library: self.library.clone(),
+            default_library: default_path(),
+            exports: self.exports.request(),
+            timelapse: self.timelapse.request(),
+            undo_memory: self.engine.undo_memory(),
+            device: self.engine.device(),
         };
-        script.resolve(&library)?;
-        let saves = script.actions.iter().any(|action| matches!(action, Action::Save { .. }));
-        let mut inputs = vec![path.to_owned()];
-        inputs.extend(self.library.clone());
-        inputs.extend(script.complete_picture_paths(&folder));
-        inputs.extend(start.iter().map(|(path, ..)| path.clone()));
-        let paints = self.exports.any() || saves;
-        let json = self.json;
-        let exports = self.exports.open(&inputs)?;
-        let timelapse = self.timelapse.open(&inputs, |output| exports.writes(output))?;
-        if !paints && timelapse.is_none() {
-            return Err(Failure::usage(
-                "nothing would be written",
-                "add --picture painting.png, or --output painting.exr",
-            ));
-        }
-        let plan = timelapse.as_ref().map(|timelapse| timelapse.plan(&script)).transpose()?;
-        check_saves(&script, &folder, &inputs).context(|| name.clone())?;
-        let (start, table) = start.map(|(_, start, table)| (start, table)).unzip();
-        let (canvas, palette, brushes) =
-            script.surfaces_with_table(&library, start, table.flatten())?;
-        let mut summary = Map::new();
-        if let (Some(timelapse), Some(plan)) = (&timelapse, &plan) {
-            let canvas = canvas.clone();
-            let palette = palette.clone();
-            let mut session = open_session(&self.engine, canvas, palette, console)?;
-            session.take_up(&brushes)?;
-            let report = timelapse.write(plan, &mut session, console);
-            let report = report.map_err(|failure| failure.within(&name))?;
-            print_timelapse(&report, session.canvas(), &mut summary, json, console)?;
-        }
-        if paints {
-            let mut session = open_session(&self.engine, canvas, palette, console)?;
-            for brush in session.take_up(&brushes)? {
-                console
-                    .remark(format!("the brush `{brush}` has another head now and begins clean"))?;
+        let mut job =
+            heard(console, |task, listener| request.open(task, listener).map_err(refusal))?;
+        while let Some(mut session) = job.session(|floor| self.engine.engine(floor, console))? {
+            let played =
+                heard(console, |task, listener| Ok(job.play(&mut session, task, listener)?))?;
+            if let PlayedSession::Painting(report) = &played {
+                warn(report, console)?;
             }
-            let kept = brushes.iter().filter(|brush| brush.paint.is_some());
-            let kept = kept.map(|brush| brush.name.as_str()).collect();
-            for (index, brush) in script.unloaded_brushes(&kept) {
-                console.remark(format!(
-                    "{name}, action {index}: the brush `{brush}` paints before it was loaded, so it only moves paint that lies there"
-                ))?;
+            if !self.json {
+                print(played, job.outcome(), console)?;
             }
-            let report = play(&script, &mut session, (&folder, &inputs), console);
-            let report = report.map_err(|failure| failure.within(&name))?;
-            exports.write(session.canvas_mut(), console)?;
-            print(&report, session.canvas(), &mut summary, json, console)?;
         }
-        if json { console.json(&Value::Object(summary)) } else { Ok(()) }
+        if !self.json {
+            return Ok(());
+        }
+        console.json(&serde_json::to_value(job.outcome()).expect("JSON holds it"))
     }
+}
 
-    /// Opens the painting that the script continues, if it continues one, and the table beside it
-    /// if the script asks for that.
-    fn start(&self, script: &StrokeScript, folder: &Path) -> Result<Option<Start>> {
-        let Some(start) = &script.start else { return Ok(None) };
-        if self.library.is_some() {
-            return Err(Failure::usage(
-                format!("the script continues {start}, which has its own library"),
-                "leave LIBRARY out",
-            ));
+/// The failure for a script. The default library is the one that a variable names.
+fn refusal(error: PictureError) -> Failure {
+    match error {
+        PictureError::DefaultLibrary(error) => {
+            Failure::from(error).within(format!("the default library, which {VARIABLE} names"))
         }
-        let path = folder.join(start);
-        let name = path.display().to_string();
-        let bytes = documents::file::read(&path)?;
-        let document = file::read(&name, &bytes)?;
-        let table = if script.table { file::read_table(&name, &bytes)? } else { None };
-        Ok(Some((path, document, table)))
-    }
-
-    /// The library that you name, else the one that the script names, else the default one.
-    fn script_library(
-        &self,
-        script: &StrokeScript,
-        folder: &Path,
-        console: &mut Console<'_>,
-    ) -> Result<PigmentLibrary> {
-        if let Some(path) = &self.library {
-            return library(path);
-        }
-        if script.library.is_none() {
-            return Ok(quietly_chosen(None, console)?.library);
-        }
-        let ScriptLibrary { library, missing } = script.open_library(folder)?;
-        if let Some(missing) = missing {
-            console.warnings(&[format!(
-                "the script names the library `{missing}`, which was not found; using the built-in oils (name another after the script)"
-            )])?;
-        }
-        Ok(library)
+        error => error.into(),
     }
 }
 
@@ -215,139 +139,9 @@ fn two_libraries(first: &Path, second: &Path) -> Failure {
     Failure::usage(both, "leave one of them out")
 }
 
-/// Plays the script on `session`. Its files are saved below `folder`, and none of `inputs` is
-/// overwritten.
-fn play(
-    script: &StrokeScript,
-    session: &mut PaintingSession,
-    (folder, inputs): (&Path, &[PathBuf]),
-    console: &mut Console<'_>,
-) -> Result<ReplayReport> {
-    let bar = Progress::new(script.actions.len(), "painting", console.shows_progress());
-    let mut remarks = Vec::new();
-    let report = script.replay(
-        session,
-        |path, painting| save(folder, path, inputs, painting, &mut remarks).map_err(SaveFailure),
-        || {
-            bar.step();
-            ControlFlow::Continue(())
-        },
-    );
-    bar.done();
-    for remark in remarks {
-        console.remark(remark)?;
-    }
-    report.map_err(replay_failure)
-}
-
-/// Opens a painting session with the canvas and, if given, the palette.
-fn open_session(
-    engine: &EngineOptions,
-    canvas: Document,
-    palette: Option<Document>,
-    console: &mut Console<'_>,
-) -> Result<PaintingSession> {
-    let undo_bytes = engine.undo_bytes();
-    let backend = engine.engine(&canvas.ground.height, console)?;
-    let canvas = Painting::open(canvas, backend, undo_bytes)?;
-    let Some(palette) = palette else { return Ok(PaintingSession::new(canvas, None)?) };
-    let backend = engine.engine(&palette.ground.height, console)?;
-    let palette = Painting::open_under(palette, canvas.light().clone(), backend, undo_bytes)?;
-    let mut session = PaintingSession::new(canvas, Some(palette))?;
-    session.set_undo_bytes(undo_bytes);
-    Ok(session)
-}
-
-/// Path of the painting that a script continues, the painting, and the table beside it.
-type Start = (PathBuf, Document, Option<SideTable>);
-
-/// Failure of a save action, in the form that the replay of a script returns.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-struct SaveFailure(Failure);
-
-/// Converts the error of a replay, naming the action that failed.
-fn replay_failure(error: ReplayError<SaveFailure>) -> Failure {
-    match error {
-        ReplayError::Script(error) => error.into(),
-        ReplayError::Action { index, kind, error } => {
-            Failure::from(*error).within(format!("action {index} ({kind})"))
-        }
-        ReplayError::Save { index, error: SaveFailure(failure) } => {
-            failure.within(format!("action {index} (save)"))
-        }
-    }
-}
-
-/// Checks, before painting, that every file that the script saves can be written.
-fn check_saves(script: &StrokeScript, folder: &Path, inputs: &[PathBuf]) -> Result<()> {
-    let mut checked = BTreeSet::new();
-    for (index, action) in script.actions.iter().enumerate() {
-        if let Action::Save { path } = action
-            && checked.insert(path)
-        {
-            check_save(&folder.join(path), inputs).context(|| format!("action {index} (save)"))?;
-        }
-    }
-    Ok(())
-}
-
-/// Checks that you can write a file in a folder that we make later.
-fn check_save(path: &Path, inputs: &[PathBuf]) -> Result<()> {
-    match (path.parent(), path.file_name().and_then(|name| name.to_str())) {
-        (Some(parent), Some(name)) if !parent.exists() && parent != Path::new("") => {
-            OutputFolder::open(parent, inputs)?.check([name.to_owned()])
-        }
-        _ => Output::open(path, inputs).map(drop),
-    }
-}
-
-/// Opens the file of a save action, with a path relative to the script's folder.
-fn open_save(folder: &Path, path: &str, inputs: &[PathBuf]) -> Result<Output> {
-    let path = folder.join(path);
-    if let Some(parent) = path.parent() {
-        create_folder(parent)?;
-    }
-    Output::open(&path, inputs)
-}
-
-/// Carries out a save action of the script: a PNG picture, or the painting itself.
-fn save(
-    folder: &Path,
-    path: &str,
-    inputs: &[PathBuf],
-    painting: &mut Painting,
-    remarks: &mut Vec<String>,
-) -> Result<()> {
-    let output = open_save(folder, path, inputs)?;
-    let path = output.path();
-    let bytes = if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")) {
-        let picture = painting.picture()?;
-        let file = picture_file(&picture, painting.cell_mm(), PictureFormat::Png8)?;
-        remarks.extend(file.outside_gamut().map(|outside| gamut_remark(path, outside).to_string()));
-        file.bytes
-    } else {
-        file::write(&painting.document()?)?
-    };
-    output.put(bytes)?;
-    let wrote = format!("Wrote {}", output.path().display());
-    // A script may save one file many times.
-    if !remarks.contains(&wrote) {
-        remarks.push(wrote);
-    }
-    Ok(())
-}
-
-/// Prints the summary of a replay, or adds it to `summary`.
-fn print(
-    report: &ReplayReport,
-    painting: &Painting,
-    summary: &mut Map<String, Value>,
-    as_json: bool,
-    console: &mut Console<'_>,
-) -> Result<()> {
-    let bounds = painting.bounds();
-    let ReplayReport { actions, strokes, substeps, cells, idle, not_undoable } = *report;
+/// Warns of undo and redo actions without effect, and of strokes that cannot be undone.
+fn warn(report: &ReplayReport, console: &mut Console<'_>) -> Result<()> {
+    let ReplayReport { idle, not_undoable, .. } = *report;
     if idle > 0 {
         console.warnings(&[format!(
             "{} had nothing to undo or redo",
@@ -360,51 +154,28 @@ fn print(
             counted_as(not_undoable, "stroke was", "strokes were")
         )])?;
     }
-    if as_json {
-        let counts = [("actions", actions), ("strokes", strokes), ("substeps", substeps)];
-        for (name, count) in counts.into_iter().chain([("cells", cells)]) {
-            summary.insert(name.to_owned(), count.into());
+    Ok(())
+}
+
+/// Prints the summary of a session of a script.
+fn print(played: PlayedSession, outcome: &ScriptOutcome, console: &mut Console<'_>) -> Result<()> {
+    match played {
+        PlayedSession::Timelapse(TimelapseOutcome { frames, found, size: (width, height) }) => {
+            let found = if found > 0 { format!(", {found} found") } else { String::new() };
+            let frames = counted(frames, "frame");
+            console.line(format!("{frames} of {width} x {height} pixels{found}"))
         }
-        add_canvas(summary, painting);
-        return Ok(());
+        PlayedSession::Painting(ReplayReport { actions, strokes, substeps, .. }) => {
+            let ScriptOutcome { canvas: (width, height), backend, dry_layers, .. } = outcome;
+            console.line(format!(
+                "{width} x {height} cells, {}, {} of {}, {}, on {backend}",
+                counted(actions, "action"),
+                counted(strokes, "stroke"),
+                counted(substeps, "sub-step"),
+                counted(*dry_layers, "dry layer"),
+            ))
+        }
     }
-    console.line(format!(
-        "{} x {} cells, {}, {} of {}, {}, on {}",
-        bounds.width,
-        bounds.height,
-        counted(actions, "action"),
-        counted(strokes, "stroke"),
-        counted(substeps, "sub-step"),
-        counted(painting.state().dry.len(), "dry layer"),
-        painting.backend(),
-    ))
-}
-
-/// Prints the summary of a timelapse, or adds it to `summary`.
-fn print_timelapse(
-    report: &TimelapseReport,
-    painting: &Painting,
-    summary: &mut Map<String, Value>,
-    as_json: bool,
-    console: &mut Console<'_>,
-) -> Result<()> {
-    let TimelapseReport { frames, found, size: (width, height) } = *report;
-    if as_json {
-        summary.insert("frames".to_owned(), frames.into());
-        summary.insert("frames_found".to_owned(), found.into());
-        summary.insert("size".to_owned(), json!([width, height]));
-        add_canvas(summary, painting);
-        return Ok(());
-    }
-    let found = if found > 0 { format!(", {found} found") } else { String::new() };
-    let frames = counted(frames, "frame");
-    console.line(format!("{frames} of {width} x {height} pixels{found}"))
-}
-
-fn add_canvas(summary: &mut Map<String, Value>, painting: &Painting) {
-    let bounds = painting.bounds();
-    summary.insert("backend".to_owned(), painting.backend().into());
-    summary.insert("canvas".to_owned(), json!([bounds.width, bounds.height]));
 }
 
 /// Options for painting a photograph.
