@@ -43,6 +43,32 @@ pub enum Note {
     Streamed(Vec<u8>),
 }
 
+/// Files that a job wrote, and its remarks.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Written {
+    /// Remarks on what was read or chosen, and on colours that a file cannot hold.
+    pub remarks: Vec<String>,
+    /// Files and folders that were written, in the order in which they were written.
+    pub files: Vec<PathBuf>,
+    /// The content of a file with the path `-`.
+    pub streamed: Option<Vec<u8>>,
+}
+
+impl From<Vec<Note>> for Written {
+    fn from(notes: Vec<Note>) -> Self {
+        let mut written = Self::default();
+        for note in notes {
+            match note {
+                Note::Remark(remark) => written.remarks.push(remark.to_string()),
+                Note::Library { .. } => {}
+                Note::Wrote(path) => written.files.push(path),
+                Note::Streamed(content) => written.streamed = Some(content),
+            }
+        }
+        written
+    }
+}
+
 /// Hears each [`Note`] when it happens.
 pub type Listener<'a> = dyn FnMut(Note) + 'a;
 

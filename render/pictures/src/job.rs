@@ -4,7 +4,7 @@ use documents::Task;
 use graphics::compute::Compute;
 
 use crate::error::PictureError;
-use crate::exports::{Listener, Note};
+use crate::exports::{Listener, Note, Written};
 use crate::painterly_job::PainterlyJob;
 use crate::request::{Device, PictureOutcome, PictureRequest, TechniqueRequest};
 use crate::strokes_job::StrokesJob;
@@ -119,26 +119,18 @@ impl PictureJob {
             Work::Painterly(job) => job.paint(compute, task, &mut kept)?,
             Work::Strokes(job) => job.paint(compute, task, &mut kept)?,
         };
-        let mut outcome = PictureOutcome {
+        let written = Written::from(notes);
+        Ok(PictureOutcome {
             size: summary.size,
             backend: summary.backend,
             technique: summary.technique,
             frames: summary.frames.map(|(frames, _)| frames),
             frames_found: summary.frames.map(|(_, found)| found),
             pigments: summary.pigments,
-            remarks: Vec::new(),
-            files: Vec::new(),
-            streamed: None,
-        };
-        for note in notes {
-            match note {
-                Note::Remark(remark) => outcome.remarks.push(remark.to_string()),
-                Note::Library { .. } => {}
-                Note::Wrote(path) => outcome.files.push(path),
-                Note::Streamed(content) => outcome.streamed = Some(content),
-            }
-        }
-        Ok(outcome)
+            remarks: written.remarks,
+            files: written.files,
+            streamed: written.streamed,
+        })
     }
 }
 
