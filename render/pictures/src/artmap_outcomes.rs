@@ -57,9 +57,9 @@ pub struct SampleFigures {
 /// Height of the paint of a sample in mm.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct HeightFigures {
-    /// Mean height.
+    /// Mean height over the passage.
     pub mean: f64,
-    /// Greatest height.
+    /// Greatest height in the passage.
     pub greatest: f64,
 }
 
