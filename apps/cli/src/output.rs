@@ -98,11 +98,6 @@ impl StageFolder {
         Ok(Self(pictures::StageFolder::open(folder, inputs)?))
     }
 
-    /// Outputs of stages of these names, numbered from 1.
-    pub(crate) fn outputs<'a>(&self, names: impl Iterator<Item = &'a str>) -> Result<Vec<Output>> {
-        Ok(self.0.outputs(names)?.into_iter().map(Output).collect())
-    }
-
     /// Reports that the folder was written.
     pub(crate) fn told(&self, console: &mut Console<'_>) -> Result<()> {
         console.wrote(self.0.path())

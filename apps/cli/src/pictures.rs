@@ -1,8 +1,7 @@
-//! Options of the files of a picture or painting, and painting pictures behind a bar. Pictures that are
-//! not paintings are here too, e.g. sheets, pictures with marks, pictures in a map's brushwork, and
-//! the options of the canvas that you paint a picture on.
+//! Options of the files of a picture or painting, and long work behind a bar with what you hear of it, e.g. the
+//! files that it writes. The names of the grounds that you paint a picture on are here too.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{
     Args, ValueEnum,
@@ -10,20 +9,12 @@ use clap::{
     value_parser,
 };
 use documents::{Task, counted, file};
-use graphics::{
-    compute::Compute,
-    export::{PictureFormat, picture_file},
-    field::Field,
-    picture::Picture,
-};
+use graphics::{compute::Compute, field::Field};
 use paint::{ground::GroundKind, painting::Painting, scene::PixelsPerCell};
-use pictures::{
-    ExportRequest, Listener, Note, PX_MM, PictureOutcome, PictureRequest, gamut_remark,
-};
+use pictures::{ExportRequest, Listener, Note, PictureOutcome, PictureRequest};
 
 use crate::console::{Console, without_noise};
 use crate::failure::Result;
-use crate::output::Output;
 use crate::progress::Following;
 
 /// Bits of a channel of a PNG.
@@ -204,38 +195,6 @@ pub(crate) fn frames_text(outcome: &PictureOutcome) -> String {
         Some(found) => format!(" ({found} of them existed already)"),
     };
     format!(", {}{found}", counted(frames, "frame"))
-}
-
-/// Opens the output of a picture (.png or .exr).
-pub(crate) fn picture_output(path: Option<&Path>, inputs: &[PathBuf]) -> Result<Option<Output>> {
-    path.map(|path| Output::with_ending(path, &["png", "exr"], inputs)).transpose()
-}
-
-/// Refuses two outputs of one file name.
-pub(crate) fn refuse_same(outputs: &[Option<&file::Output>]) -> Result<()> {
-    let outputs: Vec<&file::Output> = outputs.iter().copied().flatten().collect();
-    for (index, output) in outputs.iter().enumerate() {
-        if outputs[..index].iter().any(|other| output.is_same_as(other)) {
-            return Err(output.used_twice().into());
-        }
-    }
-    Ok(())
-}
-
-/// Encodes a picture of linear sRGB for `output`, with a remark on colours that it cannot hold.
-pub(crate) fn picture_bytes(
-    picture: &Picture,
-    output: &Output,
-    console: &mut Console<'_>,
-) -> Result<Vec<u8>> {
-    let opaque = picture.values().iter().map(|&[r, g, b]| [r, g, b, 1.0]).collect();
-    let opaque = Field::from_values(picture.width(), picture.height(), opaque);
-    let format = PictureFormat::from_path(output.path()).unwrap_or_default();
-    let file = picture_file(&opaque, PX_MM, format)?;
-    if let Some(outside) = file.outside_gamut() {
-        console.remarks(&[gamut_remark(output.path(), outside)])?;
-    }
-    Ok(file.bytes)
 }
 
 /// Names of the grounds to paint on.

@@ -3,8 +3,6 @@
 
 use std::path::PathBuf;
 
-use artmap::painted::{PaintedSettings, Style, SwatchPainter};
-use artmap::sample::SampleSet;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use documents::settings::Preset;
@@ -130,14 +128,4 @@ pub(crate) fn write_stages<T: Technique>(
 ) -> Result<()> {
     let stages = followed(console, |task| painter.stages(view, task))?;
     folder.write(&stages, console)
-}
-
-/// Samples painted by the engine in a style.
-pub(crate) fn samples(
-    style: &Style,
-    colors: &PaintedSettings,
-    console: &Console<'_>,
-) -> Result<SampleSet> {
-    let mut painter = prepared::<SwatchPainter>(colors, style, console)?;
-    Ok(painted(&mut painter, (), console)?)
 }

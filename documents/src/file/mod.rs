@@ -31,7 +31,7 @@ mod output;
 mod pieces;
 
 pub use output::{
-    Output, OutputError, OutputFolder, create_folder, is_stream, split_file_and_sheet,
+    Output, OutputError, OutputFolder, create_folder, is_stream, refuse_same, split_file_and_sheet,
 };
 #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
 pub use pieces::FileInPieces;

@@ -123,6 +123,20 @@ impl Output {
     }
 }
 
+/// Refuses two outputs of one file. `None` stands for an output that is not wanted.
+///
+/// # Errors
+/// [`OutputError::UsedTwice`] with the second of them.
+pub fn refuse_same(outputs: &[Option<&Output>]) -> Result<(), OutputError> {
+    let outputs: Vec<&Output> = outputs.iter().copied().flatten().collect();
+    for (index, output) in outputs.iter().enumerate() {
+        if outputs[..index].iter().any(|other| output.is_same_as(other)) {
+            return Err(output.used_twice());
+        }
+    }
+    Ok(())
+}
+
 /// Whether `path` is the output of the program: `-`.
 #[must_use]
 pub fn is_stream(path: &Path) -> bool {

@@ -4,6 +4,8 @@ use std::{error::Error, fmt};
 
 use artmap::{
     painted::{PaintedError, StyleError},
+    passages::{MarksError, PassageError},
+    sample::{FromPaintingError, GuessError, JoinError},
     synthesis::SynthesisError,
     texel_file::TexelFileError,
 };
@@ -233,6 +235,24 @@ pub enum PictureError {
     /// Samples cannot be painted.
     #[error(transparent)]
     Samples(#[from] PaintedError),
+    /// Marks cannot be read.
+    #[error(transparent)]
+    Marks(#[from] MarksError),
+    /// Samples cannot be taken from a picture.
+    #[error(transparent)]
+    Passages(#[from] PassageError),
+    /// A painting cannot be sampled.
+    #[error(transparent)]
+    FromPainting(#[from] FromPaintingError),
+    /// The relief of samples cannot be guessed.
+    #[error(transparent)]
+    Guess(#[from] GuessError),
+    /// Samples of several files do not make one map.
+    #[error(transparent)]
+    Join(#[from] JoinError),
+    /// A painting cannot be read.
+    #[error(transparent)]
+    PaintingFile(#[from] PaintingFileError),
     /// No map can be made of samples.
     #[error(transparent)]
     Synthesis(#[from] SynthesisError),

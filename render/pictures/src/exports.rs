@@ -43,21 +43,21 @@ pub enum Note {
     Streamed(Vec<u8>),
 }
 
+/// Files that a job wrote, and its remarks.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Written {
+    /// Remarks on what was read or chosen, and on colours that a file cannot hold.
+    pub remarks: Vec<String>,
+    /// Files and folders that were written, each once, in their order.
+    pub files: Vec<PathBuf>,
+    /// The content of a file with the path `-`.
+    pub streamed: Option<Vec<u8>>,
+}
+
 /// Hears each [`Note`] when it happens.
 pub type Listener<'a> = dyn FnMut(Note) + 'a;
 
-/// Notes of a job by their kind.
-#[derive(Debug, Default)]
-pub(crate) struct Notes {
-    /// Remarks on what was read or chosen, and on colours that a file cannot hold.
-    pub(crate) remarks: Vec<String>,
-    /// Files and folders that were written, each once.
-    pub(crate) files: Vec<PathBuf>,
-    /// The content of a file whose path is `-`.
-    pub(crate) streamed: Option<Vec<u8>>,
-}
-
-impl Notes {
+impl Written {
     /// Adds a note and passes it on.
     pub(crate) fn pass(&mut self, note: Note, listener: &mut Listener<'_>) {
         match &note {

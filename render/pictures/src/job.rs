@@ -4,7 +4,7 @@ use documents::Task;
 use graphics::compute::Compute;
 
 use crate::error::PictureError;
-use crate::exports::{Listener, Note};
+use crate::exports::{Listener, Note, Written};
 use crate::painterly_job::PainterlyJob;
 use crate::request::{Device, PictureOutcome, PictureRequest, TechniqueRequest};
 use crate::strokes_job::StrokesJob;
@@ -15,8 +15,8 @@ use crate::watercolor_job::WatercolorJob;
 pub struct PictureJob {
     work: Work,
     device: Device,
-    /// Notes on the checks of the request.
-    notes: Vec<Note>,
+    /// Files and remarks so far.
+    written: Written,
 }
 
 #[derive(Debug)]
@@ -68,11 +68,8 @@ impl PictureRequest {
         task: &Task,
         listener: &mut Listener<'_>,
     ) -> Result<PictureJob, PictureError> {
-        let mut notes = Vec::new();
-        let mut kept = |note: Note| {
-            notes.push(note.clone());
-            listener(note);
-        };
+        let mut written = Written::default();
+        let mut kept = |note: Note| written.pass(note, listener);
         let work = match &self.technique {
             TechniqueRequest::Watercolor(own) => {
                 Work::Watercolor(Box::new(WatercolorJob::open(self, own, &mut kept)?))
@@ -88,7 +85,7 @@ impl PictureRequest {
             Work::Strokes(job) if !job.paints() => Device::Cpu,
             _ => self.device,
         };
-        Ok(PictureJob { work, device, notes })
+        Ok(PictureJob { work, device, written })
     }
 }
 
@@ -109,36 +106,24 @@ impl PictureJob {
         task: &Task,
         listener: &mut Listener<'_>,
     ) -> Result<PictureOutcome, PictureError> {
-        let Self { work, mut notes, .. } = self;
-        let mut kept = |note: Note| {
-            notes.push(note.clone());
-            listener(note);
-        };
+        let Self { work, mut written, .. } = self;
+        let mut kept = |note: Note| written.pass(note, listener);
         let summary = match work {
             Work::Watercolor(job) => job.paint(compute, task, &mut kept)?,
             Work::Painterly(job) => job.paint(compute, task, &mut kept)?,
             Work::Strokes(job) => job.paint(compute, task, &mut kept)?,
         };
-        let mut outcome = PictureOutcome {
+        Ok(PictureOutcome {
             size: summary.size,
             backend: summary.backend,
             technique: summary.technique,
             frames: summary.frames.map(|(frames, _)| frames),
             frames_found: summary.frames.map(|(_, found)| found),
             pigments: summary.pigments,
-            remarks: Vec::new(),
-            files: Vec::new(),
-            streamed: None,
-        };
-        for note in notes {
-            match note {
-                Note::Remark(remark) => outcome.remarks.push(remark.to_string()),
-                Note::Library { .. } => {}
-                Note::Wrote(path) => outcome.files.push(path),
-                Note::Streamed(content) => outcome.streamed = Some(content),
-            }
-        }
-        Ok(outcome)
+            remarks: written.remarks,
+            files: written.files,
+            streamed: written.streamed,
+        })
     }
 }
 

@@ -43,6 +43,8 @@
 //! | frames that an interrupted run continues | [`AnimationRequest::open`] |
 //! | a subject with its cameras | [`ViewRequest::subject`] |
 //! | a photograph in strokes, or separated into pigments | [`StrokesRequest`] |
+//! | samples of brushwork: marks proposed, taken from a picture, or painted | [`MarksRequest`], [`SampleRequest`], [`SwatchRequest`] |
+//! | a map of samples, made, checked or drawn | [`ArtMapRequest`], [`ArtMapCheckRequest`], [`SheetRequest`] |
 //!
 //! Modules are ordered by dependence: each uses only modules declared above it.
 
@@ -53,6 +55,9 @@ mod subject;
 mod style;
 mod request;
 mod brushwork;
+mod artmap_outcomes;
+mod artmap_request;
+mod artmap_job;
 mod watercolor_job;
 mod painterly_job;
 mod strokes_job;
@@ -62,10 +67,17 @@ mod timelapse;
 mod script;
 
 pub use animation::{Animation, AnimationRequest, FramesDigest, Recording, animation_format};
+pub use artmap_outcomes::{
+    ArtMapOutcome, BrushworkOutcome, DirectionFigures, HeightFigures, MarkFigures, MarksOutcome,
+    PassageFigures, SampleFigures, SamplesOutcome, TileFigures,
+};
+pub use artmap_request::{
+    ArtMapCheckRequest, ArtMapRequest, MarksRequest, SampleRequest, SheetRequest, SwatchRequest,
+};
 pub use brushwork::style_of;
 pub use error::{PictureError, SettingError};
 pub use exports::{
-    Bands, ExportRequest, Listener, Note, OpenExports, PX_MM, StageFolder, gamut_remark,
+    Bands, ExportRequest, Listener, Note, OpenExports, PX_MM, StageFolder, Written, gamut_remark,
 };
 pub use job::PictureJob;
 pub use relight::{DryLayerOutcome, LayerOutcome, RelightJob, RelightOutcome, RelightRequest};

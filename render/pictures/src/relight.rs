@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 use spectra::Viewing;
 
 use crate::error::{PictureError, SettingError};
-use crate::exports::{ExportRequest, Listener, Note, Notes, OpenExports};
+use crate::exports::{ExportRequest, Listener, Note, Written, OpenExports};
 use crate::request::Device;
 
 /// A stored painting to show under another light, or as if painted with other pigments. [`Self::run`] shows it.
@@ -127,7 +127,7 @@ impl RelightRequest {
         let mut job = self.open(task)?;
         let floor = &job.document.ground.height;
         let engine = opened_engine(self.device, floor, &mut |note| {
-            job.notes.pass(note, &mut |_| {});
+            job.written.pass(note, &mut |_| {});
         })?;
         job.relight(engine, task, &mut |_| {})
     }
@@ -148,8 +148,8 @@ impl RelightRequest {
         let exports = self.exports.clone().open(std::slice::from_ref(&self.painting))?;
         let swap = self.swap.clone();
         let opacity = self.opacity.clone();
-        let notes = Notes::default();
-        Ok(RelightJob { document, light, swap, opacity, exports, undo_bytes, notes })
+        let written = Written::default();
+        Ok(RelightJob { document, light, swap, opacity, exports, undo_bytes, written })
     }
 
     /// Lighting of the painting with the keys of the request in place of the `saved` values.
@@ -221,7 +221,7 @@ pub struct RelightJob {
     opacity: Vec<String>,
     exports: OpenExports,
     undo_bytes: u64,
-    notes: Notes,
+    written: Written,
 }
 
 impl RelightJob {
@@ -241,15 +241,15 @@ impl RelightJob {
         task: &Task,
         listener: &mut Listener<'_>,
     ) -> Result<RelightOutcome, PictureError> {
-        let Self { document, light, swap, opacity, exports, undo_bytes, mut notes } = self;
+        let Self { document, light, swap, opacity, exports, undo_bytes, mut written } = self;
         task.stage("lighting the painting");
         task.check()?;
         let mut painting = Painting::open_under(document, light, engine, undo_bytes)?;
         swap.iter().try_for_each(|text| exchange(&mut painting, text))?;
         opacity.iter().try_for_each(|text| set_opacity(&mut painting, text))?;
-        exports.write(&mut painting, task, &mut |note| notes.pass(note, listener))?;
+        exports.write(&mut painting, task, &mut |note| written.pass(note, listener))?;
         let bounds = painting.bounds();
-        let Notes { remarks, files, streamed } = notes;
+        let Written { remarks, files, streamed } = written;
         Ok(RelightOutcome {
             canvas: (bounds.width, bounds.height),
             cell_mm: painting.cell_mm(),

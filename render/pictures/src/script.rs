@@ -29,7 +29,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer, ser::SerializeMap};
 
 use crate::error::{PictureError, SettingError};
-use crate::exports::{ExportRequest, Listener, Note, Notes, OpenExports, gamut_remark};
+use crate::exports::{ExportRequest, Listener, Note, Written, OpenExports, gamut_remark};
 use crate::relight::{opened_engine, undo_bytes, undo_memory};
 use crate::request::Device;
 use crate::timelapse::{OpenTimelapse, TimelapseOutcome, TimelapseRequest};
@@ -123,7 +123,7 @@ impl ScriptRequest {
             job.session(|floor| opened_engine(self.device, floor, &mut |note| warnings.push(note)))?
         {
             for note in mem::take(&mut warnings) {
-                job.notes.pass(note, &mut |_| {});
+                job.written.pass(note, &mut |_| {});
             }
             job.play(&mut session, task, &mut |_| {})?;
         }
@@ -142,7 +142,7 @@ impl ScriptRequest {
     ) -> Result<ScriptJob, PictureError> {
         let undo_bytes = undo_bytes(self.undo_memory)?;
         task.check()?;
-        let mut notes = Notes::default();
+        let mut written = Written::default();
         let path = &self.script;
         let name = path.display().to_string();
         let mut script = StrokeScript::from_json(&name, &file::read(path)?)?;
@@ -151,7 +151,7 @@ impl ScriptRequest {
         let start = self.start(&script, &folder)?;
         let library = match &start {
             Some((_, start, _)) => start.library.clone(),
-            None => self.library_of(&script, &folder, &mut |note| notes.pass(note, listener))?,
+            None => self.library_of(&script, &folder, &mut |note| written.pass(note, listener))?,
         };
         script.resolve(&library)?;
         let saves = script.actions.iter().any(|action| matches!(action, Action::Save { .. }));
@@ -268,7 +268,7 @@ pub struct ScriptJob {
     timelapse: Option<OpenTimelapse>,
     exports: Option<OpenExports>,
     outcome: ScriptOutcome,
-    notes: Notes,
+    written: Written,
 }
 
 /// A session that was played.
@@ -316,13 +316,13 @@ impl ScriptJob {
         task: &Task,
         listener: &mut Listener<'_>,
     ) -> Result<PlayedSession, PictureError> {
-        let mut notes = mem::take(&mut self.notes);
-        let mut noted = |note: Note| notes.pass(note, listener);
+        let mut written = mem::take(&mut self.written);
+        let mut noted = |note: Note| written.pass(note, listener);
         let played = match self.timelapse.take() {
             Some(timelapse) => self.write_timelapse(&timelapse, session, task, &mut noted),
             None => self.paint(session, task, &mut noted),
         };
-        self.notes = notes;
+        self.written = written;
         let canvas = session.canvas();
         let bounds = canvas.bounds();
         self.outcome.canvas = (bounds.width, bounds.height);
@@ -340,7 +340,7 @@ impl ScriptJob {
     /// The result with the files and remarks of all sessions.
     #[must_use]
     pub fn finish(self) -> ScriptOutcome {
-        let Notes { remarks, files, streamed } = self.notes;
+        let Written { remarks, files, streamed } = self.written;
         ScriptOutcome { remarks, files, streamed, ..self.outcome }
     }
 

@@ -6,7 +6,10 @@ use calibrate::quadrature::QuadratureRequest;
 use calibrate::{FitRequest, ValidationRequest};
 use maps::MapRequest;
 use maps::cube::CubeOptions;
-use pictures::{PictureRequest, RelightRequest, ScriptRequest};
+use pictures::{
+    ArtMapCheckRequest, ArtMapRequest, MarksRequest, PictureRequest, RelightRequest, SampleRequest,
+    ScriptRequest, SheetRequest, SwatchRequest,
+};
 use reports::ReportRequest;
 use schemars::SchemaGenerator;
 use schemars::generate::SchemaSettings;
@@ -28,6 +31,12 @@ fn schema() -> Value {
     generator.subschema_for::<PictureRequest>();
     generator.subschema_for::<RelightRequest>();
     generator.subschema_for::<ScriptRequest>();
+    generator.subschema_for::<MarksRequest>();
+    generator.subschema_for::<SampleRequest>();
+    generator.subschema_for::<SwatchRequest>();
+    generator.subschema_for::<ArtMapRequest>();
+    generator.subschema_for::<ArtMapCheckRequest>();
+    generator.subschema_for::<SheetRequest>();
     generator.subschema_for::<MapRequest>();
     generator.subschema_for::<CubeOptions>();
     json!({

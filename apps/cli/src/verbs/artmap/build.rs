@@ -4,22 +4,18 @@
 
 use std::path::PathBuf;
 
-use artmap::map::{ArtMap, Between, MapFigures, file};
-use artmap::sample::SampleSet;
-use artmap::sheet::sheet;
-use artmap::synthesis::{Features, Stage, SynthesisSettings};
-use artmap::texel_file::TexelFileError;
-use clap::{Args, ValueEnum};
-
-use super::table::{
-    FileAndSheet, csv_tiles, map_json, pigment_names, print_samples, print_tiles, sample_json,
-    set_json, spacing, summary,
+use artmap::{
+    map::Between,
+    synthesis::{Features, SynthesisSettings},
 };
+use clap::{Args, ValueEnum};
+use documents::Task;
+use pictures::{ArtMapCheckRequest, ArtMapRequest, BrushworkOutcome, SheetRequest};
+
+use super::table::{Printed, names, print_samples, print_tiles, spacing, summary};
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::output::StageFolder;
-use crate::pictures::{picture_bytes, picture_output};
-use crate::progress::Waiting;
+use crate::pictures::heard;
 use crate::readings::remark_repeated;
 
 /// Properties by which patches are compared.
@@ -88,40 +84,27 @@ pub(super) struct Build {
 impl Build {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         remark_repeated(&self.samples, console)?;
-        let files = FileAndSheet::open(&self.output, self.sheet.as_deref(), &self.samples)?;
-        let folder = self.stages.as_ref();
-        let folder = folder.map(|folder| StageFolder::open(folder, &self.samples)).transpose()?;
-        let sets = self.samples.iter().map(|path| SampleSet::open(path));
-        let set = SampleSet::joined(sets.collect::<std::result::Result<Vec<_>, _>>()?)?;
-        let waiting = Waiting::new("building the map", console.shows_progress());
-        let (map, stages) = match folder {
-            Some(_) => ArtMap::with_stages(&set, &self.settings())?,
-            None => (ArtMap::of(&set, &self.settings())?, Vec::new()),
-        };
-        let figures = MapFigures::of(&map);
-        drop(waiting);
-        if let Some(folder) = folder {
-            write_stages(&folder, &stages, console)?;
+        let output = self.output.display().to_string();
+        let printed = Printed::of(self.json, self.csv);
+        let request = self.request();
+        let map = heard(console, |task, listener| Ok(request.run_heard(task, listener)?))?;
+        if printed.as_data(&map, "tiles", console)? {
+            return Ok(());
         }
-        files.write(file::write(&map)?, || map.sheet(Between::default()), console)?;
-        if self.csv {
-            return csv_tiles(&map_json(&map, &figures), console);
-        }
-        if self.json {
-            return console.json(&map_json(&map, &figures));
-        }
-        console.line(format!("{}: {}", self.output.display(), summary(&map)))?;
-        print_tiles(&figures, console)?;
-        for fault in figures.faults() {
+        console.line(format!("{output}: {}", summary(&map)))?;
+        print_tiles(&map, console)?;
+        for fault in &map.faults {
             console.remark(fault.to_string())?;
         }
         Ok(())
     }
 
-    fn settings(&self) -> SynthesisSettings {
-        SynthesisSettings {
+    /// The map of these options.
+    fn request(self) -> ArtMapRequest {
+        ArtMapRequest {
+            samples: self.samples,
             size: self.size,
-            first: self.first.clone(),
+            first: self.first,
             features: match self.features {
                 ComparedBy::Tone => Features::Tone,
                 ComparedBy::Paper => Features::Paper,
@@ -130,18 +113,11 @@ impl Build {
             follow: self.follow,
             uniformity: self.uniformity,
             seed: self.seed,
+            output: self.output,
+            sheet: self.sheet,
+            stages: self.stages,
         }
     }
-}
-
-/// Writes the steps of a synthesis, numbered from 1.
-fn write_stages(folder: &StageFolder, stages: &[Stage], console: &mut Console<'_>) -> Result<()> {
-    let outputs = folder.outputs(stages.iter().map(|stage| stage.name.as_str()))?;
-    for (output, stage) in outputs.into_iter().zip(stages) {
-        let bytes = picture_bytes(&stage.picture, &output, console)?;
-        output.put(bytes)?;
-    }
-    folder.told(console)
 }
 
 /// Check a map for tiles that do not agree, seams, and tones too close to each other
@@ -165,26 +141,18 @@ pub(super) struct Check {
 
 impl Check {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
-        let map = ArtMap::open(&self.map)?;
-        let figures = MapFigures::of(&map);
-        let faults = figures.faults();
-        if self.csv {
-            csv_tiles(&map_json(&map, &figures), console)?;
-        } else if self.json {
-            console.json(&map_json(&map, &figures))?;
-        } else {
+        let path = self.map.display().to_string();
+        let map = ArtMapCheckRequest { map: self.map }.run(&Task::default())?;
+        if !Printed::of(self.json, self.csv).as_data(&map, "tiles", console)? {
             console.line(summary(&map))?;
-            print_tiles(&figures, console)?;
-            for fault in &faults {
+            print_tiles(&map, console)?;
+            for fault in &map.faults {
                 console.line(format!("fault: {fault}"))?;
             }
         }
-        match faults.into_iter().next() {
+        match map.faults.into_iter().next() {
             None => Ok(()),
-            Some(first) => {
-                Err(Failure::from(first)
-                    .within(format!("{}: the map has faults", self.map.display())))
-            }
+            Some(first) => Err(Failure::from(first).within(format!("{path}: the map has faults"))),
         }
     }
 }
@@ -218,70 +186,34 @@ enum TonesBetween {
     Blend,
 }
 
-/// Content of a file.
-enum Content {
-    Samples(SampleSet),
-    Map(Box<ArtMap>),
-}
-
 impl Show {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
-        let output = picture_output(self.sheet.as_deref(), std::slice::from_ref(&self.file))?;
-        let content = self.content()?;
-        if let Some(output) = output {
-            let picture = match &content {
-                Content::Samples(set) => sheet(set),
-                Content::Map(map) => map.sheet(match self.between {
-                    TonesBetween::Dissolve => Between::Dissolve,
-                    TonesBetween::Blend => Between::Blend,
-                }),
-            };
-            let bytes = picture_bytes(&picture, &output, console)?;
-            output.write(bytes, console)?;
-        }
-        match content {
-            Content::Samples(set) => self.show_samples(&set, console),
-            Content::Map(map) => self.show_map(&map, console),
-        }
-    }
-
-    /// Reads the file. If it has another format, we say that it has no samples.
-    fn content(&self) -> Result<Content> {
-        match SampleSet::open(&self.file) {
-            Ok(set) => Ok(Content::Samples(set)),
-            Err(error @ TexelFileError::Format { .. }) => match ArtMap::open(&self.file) {
-                Err(TexelFileError::Format { .. }) => Err(error.into()),
-                map => Ok(Content::Map(Box::new(map?))),
+        let printed = Printed::of(self.json, self.csv);
+        let request = SheetRequest {
+            file: self.file,
+            sheet: self.sheet,
+            between: match self.between {
+                TonesBetween::Dissolve => Between::Dissolve,
+                TonesBetween::Blend => Between::Blend,
             },
-            Err(error) => Err(error.into()),
-        }
-    }
-
-    fn show_map(&self, map: &ArtMap, console: &mut Console<'_>) -> Result<()> {
-        let figures = MapFigures::of(map);
-        if self.csv {
-            return csv_tiles(&map_json(map, &figures), console);
-        }
-        if self.json {
-            return console.json(&map_json(map, &figures));
-        }
-        console.line(format!("{}; {}", map.provenance, summary(map)))?;
-        print_tiles(&figures, console)
-    }
-
-    fn show_samples(&self, set: &SampleSet, console: &mut Console<'_>) -> Result<()> {
-        if self.csv {
-            return console.csv_rows(&set.samples.iter().map(sample_json).collect::<Vec<_>>());
-        }
-        if self.json {
-            return console.json(&set_json(set, set.samples.iter().map(sample_json).collect()));
-        }
-        let pigments = pigment_names(set);
-        let pigments = match pigments.is_empty() {
-            true => "colours only".to_owned(),
-            false => pigments.join(", "),
         };
-        console.line(format!("{}, strokes {} apart; {pigments}", set.provenance, spacing(set)))?;
-        print_samples(set, console)
+        match heard(console, |task, listener| Ok(request.run_heard(task, listener)?))? {
+            BrushworkOutcome::Samples(set) => {
+                if printed.as_data(&set, "samples", console)? {
+                    return Ok(());
+                }
+                let pigments = names(&set.pigments);
+                let apart = spacing(&set);
+                console.line(format!("{}, strokes {apart} apart; {pigments}", set.provenance))?;
+                print_samples(&set.samples, console)
+            }
+            BrushworkOutcome::Map(map) => {
+                if printed.as_data(&map, "tiles", console)? {
+                    return Ok(());
+                }
+                console.line(format!("{}; {}", map.provenance, summary(&map)))?;
+                print_tiles(&map, console)
+            }
+        }
     }
 }

@@ -1,20 +1,18 @@
 //! `impasto artmap paint`: samples painted by the engine in a style.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
-use artmap::painted::{PaintedSettings, Style};
-use artmap::sample::file;
-use artmap::sheet::sheet;
+use artmap::painted::Style;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
-use pictures::style_of;
+use documents::counted;
+use pictures::{PictureError, SwatchRequest};
 
-use super::table::{FileAndSheet, pigment_names, print_samples, sample_json, set_json, spacing};
+use super::table::{Printed, print_samples, spacing};
 use crate::console::Console;
-use crate::failure::Result;
-use crate::library_choice::quietly_chosen;
-use crate::technique::samples;
+use crate::failure::{Context, Result};
+use crate::library_choice::{VARIABLE, default_path};
+use crate::pictures::heard;
 
 /// Paint samples with the engine: tones of one hue, from dark to light, in the strokes of a style
 ///
@@ -67,35 +65,35 @@ impl Paint {
         if let Some(name) = &self.show_style {
             return console.line(Style::text(name)?.trim_end());
         }
-        let named = self.style.clone().unwrap_or_default();
-        let (style, file) = style_of(&named)?;
-        let path = self.library.as_deref().or(self.pigments.as_deref());
-        let chosen = quietly_chosen(path, console)?;
-        let inputs: Vec<PathBuf> = chosen.inputs().into_iter().chain(file).collect();
-        let output = self.output.clone().unwrap_or_default();
-        let files = FileAndSheet::open(&output, self.sheet.as_deref(), &inputs)?;
-        let settings = PaintedSettings {
-            library: Arc::new(chosen.library),
-            hue: self.hue.clone(),
+        let printed = Printed::of(self.json, self.csv);
+        let named = self.library.or(self.pigments);
+        let is_named = named.is_some();
+        let request = SwatchRequest {
+            style: self.style.unwrap_or_default(),
+            library: named.or_else(default_path),
+            hue: self.hue,
             tones: self.tones,
             seed: self.seed,
+            output: self.output.unwrap_or_default(),
+            sheet: self.sheet,
         };
-        let set = samples(&style, &settings, console)?;
-        files.write(file::write(&set)?, || sheet(&set), console)?;
-        if self.csv {
-            return console.csv_rows(&set.samples.iter().map(sample_json).collect::<Vec<_>>());
-        }
-        if self.json {
-            return console.json(&set_json(&set, set.samples.iter().map(sample_json).collect()));
+        let set = heard(console, |task, listener| match request.run_heard(task, listener) {
+            Err(error @ PictureError::Library(_)) if !is_named => {
+                Err(error).context(|| format!("the default library, which {VARIABLE} names"))
+            }
+            run => Ok(run?),
+        })?;
+        if printed.as_data(&set, "samples", console)? {
+            return Ok(());
         }
         console.line(format!(
             "{}: {} in the style {}, strokes {} apart, painted with {}",
-            output.display(),
-            documents::counted(set.samples.len(), "tone"),
-            style.name,
+            request.output.display(),
+            counted(set.samples.len(), "tone"),
+            set.style.as_deref().unwrap_or_default(),
             spacing(&set),
-            pigment_names(&set).join(", ")
+            set.pigments.join(", ")
         ))?;
-        print_samples(&set, console)
+        print_samples(&set.samples, console)
     }
 }

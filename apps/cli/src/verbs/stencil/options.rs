@@ -23,7 +23,7 @@ use crate::console::Console;
 use crate::engine::BackendOption;
 use crate::failure::{Failure, Result};
 use crate::output::{Output, OutputFolder, StageFolder};
-use crate::pictures::{Exports, OpenExports, grounds, refuse_same};
+use crate::pictures::{Exports, OpenExports, grounds};
 use crate::readings::{library, text, viewing};
 use crate::surface::ground;
 use crate::technique::{ShowPreset, StyleOptions, Styled};
@@ -439,7 +439,7 @@ impl OutputOptions {
         let mask = open(&self.mask, &["png", "exr"])?;
         let script = open(&self.script_out, &["toml"])?;
         let files = [&passes, &mask, &script].map(|output| output.as_deref());
-        refuse_same(&[&files[..], &[animation]].concat())?;
+        file::refuse_same(&[&files[..], &[animation]].concat())?;
         let exports = self.exports.open(inputs)?;
         let own = files.into_iter().flatten().chain(animation);
         if let Some(twice) = own.into_iter().find(|output| exports.writes(output)) {

@@ -10,6 +10,7 @@ use graphics::field::Field;
 use graphics::picture::Picture;
 use paint::layer::SLOTS;
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::relief::blurred_tile;
@@ -134,7 +135,7 @@ const SMOOTH: f64 = 0.25;
 const IN_STROKES: [f32; 2] = [1.0, 2.0];
 
 /// How to make a tile between two key tiles.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Between {
     /// Each place shows the strokes of either tile and changes once, light strokes first. This

@@ -2,14 +2,17 @@
 
 use graphics::field::Field;
 use graphics::picture::Picture;
+use serde::Serialize;
 
 use super::marks::{DrawnArea, Marks, MarksError};
 use super::upright::StrokeDirection;
 
 /// Where we saw strokes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum StrokesSeen {
     /// In the lightness of the colours.
+    #[serde(rename = "colour")]
     Color,
     /// In the height of the paint, if you know it and did not guess it.
     Relief,

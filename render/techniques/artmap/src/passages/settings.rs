@@ -4,13 +4,14 @@ use documents::hint::Explain;
 use documents::name_list;
 use graphics::field::Field;
 use graphics::picture::Picture;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::marks::MarksError;
 use crate::sample::{PaintOfSamples, TexelPaint, WholePainting};
 
 /// Method that divides the picture into small regions, from which passages are joined.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum OverSegmentation {
     /// By colour and texture (Deng and Manjunath 2001).
@@ -21,7 +22,7 @@ pub enum OverSegmentation {
 }
 
 /// Direction in which samples are resized until their spacings agree.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Density {
     /// Both directions alike: strokes keep their shape.

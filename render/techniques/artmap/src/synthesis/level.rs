@@ -8,6 +8,7 @@ use documents::hint::Explain;
 use graphics::blurred;
 use graphics::encoding::lab_from_linear;
 use graphics::field::Field;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::sample::Sample;
@@ -267,7 +268,7 @@ pub(crate) fn difference(a: &[f32; LOOKS], b: &[f32; LOOKS]) -> f32 {
 }
 
 /// Properties by which patches of two samples are compared.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Features {
     /// Strength of edges, lightness, height, a* and b*.
