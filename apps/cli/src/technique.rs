@@ -1,5 +1,5 @@
-//! All verbs of painting share this: the options for presets and settings of a technique, and
-//! painting behind a progress bar.
+//! All verbs of painting share this: the options for presets and settings of a technique, and samples of
+//! a style, painted behind a progress bar.
 
 use std::path::PathBuf;
 
@@ -9,11 +9,10 @@ use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use documents::settings::Preset;
 use paint::technique::Technique;
-use pictures::{StyleRequest, toml_of_change};
+use pictures::StyleRequest;
 
 use crate::console::Console;
-use crate::failure::{Failure, Result};
-use crate::output::StageFolder;
+use crate::failure::Result;
 use crate::progress::followed;
 
 /// A technique with presets and settings that a verb takes as options.
@@ -72,24 +71,6 @@ impl<T: Styled> StyleOptions<T> {
             set: self.set.clone(),
         }
     }
-
-    /// The preset, if one is named.
-    pub(crate) fn preset(&self) -> Option<T::Preset> {
-        self.preset
-    }
-
-    /// Path of the file, if there is one.
-    pub(crate) fn input(&self) -> Option<&PathBuf> {
-        self.settings.as_ref()
-    }
-
-    /// Calls `change` with each option `--set`, as it was written and as a line of TOML.
-    pub(crate) fn each_set(&self, mut change: impl FnMut(&str, &str) -> Result<()>) -> Result<()> {
-        self.set.iter().try_for_each(|option| {
-            let toml = toml_of_change::<T>(option)?;
-            change(&format!("--set {option}"), &toml).map_err(Failure::of_option)
-        })
-    }
 }
 
 /// Parses the name of a preset. Errors list the names.
@@ -103,41 +84,13 @@ fn set_help<T: Technique>() -> String {
     format!("Change one setting, such as {}; may be repeated", examples.join(" or "))
 }
 
-/// Prepares the painter of a subject.
-pub(crate) fn prepared<T: Technique>(
-    subject: T::Subject<'_>,
-    settings: &T::Settings,
-    console: &Console<'_>,
-) -> Result<T, T::Error> {
-    followed(console, |task| T::prepare(subject, settings, task))
-}
-
-/// Paints a subject in one view, behind a spinner or bar.
-pub(crate) fn painted<T: Technique>(
-    painter: &mut T,
-    view: T::View<'_>,
-    console: &Console<'_>,
-) -> Result<T::Picture, T::Error> {
-    followed(console, |task| painter.paint(view, task))
-}
-
-/// Writes the intermediate stages of a picture into a folder.
-pub(crate) fn write_stages<T: Technique>(
-    painter: &mut T,
-    view: T::View<'_>,
-    folder: &StageFolder,
-    console: &mut Console<'_>,
-) -> Result<()> {
-    let stages = followed(console, |task| painter.stages(view, task))?;
-    folder.write(&stages, console)
-}
-
 /// Samples painted by the engine in a style.
 pub(crate) fn samples(
     style: &Style,
     colors: &PaintedSettings,
     console: &Console<'_>,
 ) -> Result<SampleSet> {
-    let mut painter = prepared::<SwatchPainter>(colors, style, console)?;
-    Ok(painted(&mut painter, (), console)?)
+    let mut painter =
+        followed(console, |task| <SwatchPainter as Technique>::prepare(colors, style, task))?;
+    Ok(followed(console, |task| Technique::paint(&mut painter, (), task))?)
 }

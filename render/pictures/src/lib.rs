@@ -41,6 +41,7 @@
 //! | frames that an interrupted run continues | [`AnimationRequest::open`] |
 //! | a subject with its cameras | [`ViewRequest::subject`] |
 //! | a photograph in strokes, or separated into pigments | [`StrokesRequest`] |
+//! | paint volumes over a model or photograph | [`VolumesRequest`] |
 //!
 //! Modules are ordered by dependence: each uses only modules declared above it.
 
@@ -54,6 +55,7 @@ mod brushwork;
 mod watercolor_job;
 mod painterly_job;
 mod strokes_job;
+mod volumes_job;
 mod job;
 
 pub use animation::{Animation, AnimationRequest, FramesDigest, Recording, animation_format};
@@ -64,8 +66,8 @@ pub use exports::{
 };
 pub use job::PictureJob;
 pub use request::{
-    Device, PainterlyRequest, PictureOutcome, PictureRequest, PigmentRequest, StrokesRequest,
-    TechniqueOutcome, TechniqueRequest, WatercolorRequest,
+    Device, PaintAmounts, PainterlyRequest, PictureOutcome, PictureRequest, PigmentRequest,
+    StrokesRequest, TechniqueOutcome, TechniqueRequest, VolumesRequest, WatercolorRequest,
 };
 pub use style::{
     StyleRequest, listed, name_in_recipe, palette, pigment_names, text_of, toml_of_change,
