@@ -10,7 +10,7 @@ pub use documents_derive::Explain;
 /// Write a setting in square brackets, by its name in the library and, if you like, with a value:
 /// `[reference]`, `[backend=cpu]`. A program replaces this with its own control
 /// ([`Hint::with_settings`]), e.g. an option of a command line. Brackets that hold anything else
-/// stay as they are.
+/// stay as they are, e.g. `[[pour]]`, a table of a file.
 ///
 /// ```
 /// use documents::hint::Hint;
@@ -58,8 +58,9 @@ impl Hint {
                     rest = &from[length..];
                 }
                 None => {
-                    sentence.push('[');
-                    rest = &from[1..];
+                    let kept = if from.starts_with("[[") { 2 } else { 1 };
+                    sentence.push_str(&from[..kept]);
+                    rest = &from[kept..];
                 }
             }
         }
@@ -214,9 +215,13 @@ mod tests {
 
     #[test]
     fn brackets_that_hold_no_setting_are_kept() {
-        for text in
-            ["samples [[0, 4, 3, 0.5]]", "a [", "an open [bracket", "[Not] a [setting 1]", ""]
-        {
+        for text in [
+            "samples [[0, 4, 3, 0.5]]",
+            "a [",
+            "an open [bracket",
+            "[Not] a [setting 1]",
+            "[[pour]]",
+        ] {
             assert_eq!(option(text), text);
         }
         let quoted = Hint::verbatim("spectra: [white], [dark]");

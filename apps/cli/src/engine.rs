@@ -1,7 +1,6 @@
 //! Options that choose between the processor and a graphics device.
 
 use clap::{Args, ValueEnum};
-use graphics::compute::Compute;
 use graphics::field::Field;
 use graphics::gpu::BackendChoice;
 use paint::engine::PaintEngine;
@@ -30,11 +29,6 @@ pub(crate) struct BackendOption {
 }
 
 impl BackendOption {
-    /// Opens the processor or the graphics device for computing images.
-    pub(crate) fn compute(&self, console: &mut Console<'_>) -> Result<Compute> {
-        Ok(without_noise(console, || Compute::choose(self.choice()))??)
-    }
-
     fn choice(&self) -> BackendChoice {
         self.device().into()
     }

@@ -47,11 +47,6 @@ impl Failure {
         Self { messages, hint: error.hint(), status: USAGE, pipe_closed: false }
     }
 
-    /// Sets exit status 2, whatever the cause. Use this if the value of an option caused the failure.
-    pub(crate) fn of_option(self) -> Self {
-        Self { status: USAGE, ..self }
-    }
-
     /// Puts `message` first. The messages so far become its causes.
     pub(crate) fn within(mut self, message: impl Into<String>) -> Self {
         self.messages.insert(0, message.into());

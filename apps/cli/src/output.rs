@@ -7,7 +7,6 @@ use std::{
 };
 
 use documents::file;
-use paint::technique::Stage;
 
 use crate::console::Console;
 use crate::failure::Result;
@@ -101,11 +100,5 @@ impl StageFolder {
     /// Reports that the folder was written.
     pub(crate) fn told(&self, console: &mut Console<'_>) -> Result<()> {
         console.wrote(self.0.path())
-    }
-
-    /// Writes the stages.
-    pub(crate) fn write(&self, stages: &[Stage], console: &mut Console<'_>) -> Result<()> {
-        self.0.write(stages, &mut |_| {})?;
-        self.told(console)
     }
 }

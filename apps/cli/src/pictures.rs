@@ -102,11 +102,6 @@ impl Exports {
         self.request().any()
     }
 
-    /// First option present that needs layers of pigments, not only a picture.
-    pub(crate) fn layer_option(&self) -> Option<String> {
-        self.request().key_of_layers().map(|key| format!("--{}", key.replace('_', "-")))
-    }
-
     /// Checks, before the slow part of a verb, that all files can be written.
     pub(crate) fn open(self, inputs: &[PathBuf]) -> Result<OpenExports> {
         Ok(OpenExports(self.request().open(inputs)?))
@@ -117,24 +112,9 @@ impl Exports {
 pub(crate) struct OpenExports(pictures::OpenExports);
 
 impl OpenExports {
-    /// Whether any export is requested.
-    pub(crate) fn any(&self) -> bool {
-        self.0.any()
-    }
-
     /// Whether `other` is one of the export files.
     pub(crate) fn writes(&self, other: &file::Output) -> bool {
         self.0.writes(other)
-    }
-
-    /// Writes only the picture, from linear sRGB.
-    pub(crate) fn write_picture(
-        self,
-        picture: &Field<[f32; 4]>,
-        cell_mm: f64,
-        console: &mut Console<'_>,
-    ) -> Result<()> {
-        heard(console, |_, listener| Ok(self.0.write_picture(picture, cell_mm, listener)?))
     }
 
     /// Computes all exports of `painting` and writes their files.

@@ -1,5 +1,4 @@
-//! All verbs of painting share this: the options for presets and settings of a technique, and
-//! painting behind a progress bar.
+//! Options for presets and settings of a technique, which all verbs of painting share.
 
 use std::path::PathBuf;
 
@@ -7,12 +6,10 @@ use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use documents::settings::Preset;
 use paint::technique::Technique;
-use pictures::{StyleRequest, toml_of_change};
+use pictures::StyleRequest;
 
 use crate::console::Console;
-use crate::failure::{Failure, Result};
-use crate::output::StageFolder;
-use crate::progress::followed;
+use crate::failure::Result;
 
 /// A technique with presets and settings that a verb takes as options.
 pub(crate) trait Styled: Technique + std::fmt::Debug {
@@ -70,24 +67,6 @@ impl<T: Styled> StyleOptions<T> {
             set: self.set.clone(),
         }
     }
-
-    /// The preset, if one is named.
-    pub(crate) fn preset(&self) -> Option<T::Preset> {
-        self.preset
-    }
-
-    /// Path of the file, if there is one.
-    pub(crate) fn input(&self) -> Option<&PathBuf> {
-        self.settings.as_ref()
-    }
-
-    /// Calls `change` with each option `--set`, as it was written and as a line of TOML.
-    pub(crate) fn each_set(&self, mut change: impl FnMut(&str, &str) -> Result<()>) -> Result<()> {
-        self.set.iter().try_for_each(|option| {
-            let toml = toml_of_change::<T>(option)?;
-            change(&format!("--set {option}"), &toml).map_err(Failure::of_option)
-        })
-    }
 }
 
 /// Parses the name of a preset. Errors list the names.
@@ -99,33 +78,4 @@ fn preset_names<P: Preset>() -> impl TypedValueParser<Value = P> {
 fn set_help<T: Technique>() -> String {
     let examples: Vec<String> = T::EXAMPLES.iter().map(|change| format!("`{change}`")).collect();
     format!("Change one setting, such as {}; may be repeated", examples.join(" or "))
-}
-
-/// Prepares the painter of a subject.
-pub(crate) fn prepared<T: Technique>(
-    subject: T::Subject<'_>,
-    settings: &T::Settings,
-    console: &Console<'_>,
-) -> Result<T, T::Error> {
-    followed(console, |task| T::prepare(subject, settings, task))
-}
-
-/// Paints a subject in one view, behind a spinner or bar.
-pub(crate) fn painted<T: Technique>(
-    painter: &mut T,
-    view: T::View<'_>,
-    console: &Console<'_>,
-) -> Result<T::Picture, T::Error> {
-    followed(console, |task| painter.paint(view, task))
-}
-
-/// Writes the intermediate stages of a picture into a folder.
-pub(crate) fn write_stages<T: Technique>(
-    painter: &mut T,
-    view: T::View<'_>,
-    folder: &StageFolder,
-    console: &mut Console<'_>,
-) -> Result<()> {
-    let stages = followed(console, |task| painter.stages(view, task))?;
-    folder.write(&stages, console)
 }

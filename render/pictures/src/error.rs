@@ -1,6 +1,6 @@
 //! Why a picture cannot be painted.
 
-use std::{error::Error, fmt};
+use std::{error::Error, fmt, io};
 
 use artmap::{
     painted::{PaintedError, StyleError},
@@ -41,6 +41,7 @@ use paint::{
 use painterly::{CompositingError, PainterError, RegionsError, guides::GuidesError};
 use spectra::ViewingError;
 use strokes::{StrokePainterError, StrokeSettingsError};
+use volumes::{performance::PerformanceError, script::ScriptError};
 use watercolor::WatercolorError;
 
 /// A setting that has another value than it takes, or does not fit the others.
@@ -49,24 +50,37 @@ use watercolor::WatercolorError;
 /// calls [`Self::message`].
 #[derive(Debug)]
 pub struct SettingError {
-    /// The setting with which the message begins. `None` if it begins with no setting.
-    key: Option<String>,
+    /// The settings with which the message begins: usually one, or those that can be at fault.
+    keys: Vec<String>,
     /// The rest of the message.
     reason: Hint,
     hint: Option<Hint>,
+    fault: Fault,
     cause: Option<Box<dyn Error + Send + Sync>>,
 }
 
 impl SettingError {
     /// A message that begins with the setting `key`.
     pub(crate) fn of(key: &str, reason: impl Into<String>, hint: impl Into<String>) -> Self {
-        Self { key: Some(key.to_owned()), ..Self::whole(reason, hint) }
+        Self { keys: vec![key.to_owned()], ..Self::whole(reason, hint) }
     }
 
     /// A message that is a whole sentence.
     pub(crate) fn whole(message: impl Into<String>, hint: impl Into<String>) -> Self {
         let reason = Hint::verbatim(message);
-        Self { key: None, reason, hint: Some(Hint::new(hint)), cause: None }
+        let hint = Some(Hint::new(hint));
+        Self { keys: Vec::new(), reason, hint, fault: Fault::Setting, cause: None }
+    }
+
+    /// Returns the error with `key` as another setting that can be at fault.
+    pub(crate) fn or_of(mut self, key: &str) -> Self {
+        self.keys.push(key.to_owned());
+        self
+    }
+
+    /// Returns the error with another cause than the setting, for example the data that it names.
+    pub(crate) fn with_fault(self, fault: Fault) -> Self {
+        Self { fault, ..self }
     }
 
     /// Returns the error with the message `reason`, which names further settings in square
@@ -84,6 +98,11 @@ impl SettingError {
     /// An error for the setting `key`. Message and hint are taken from `error`.
     pub(crate) fn as_of(key: &str, error: &impl Explain) -> Self {
         Self { hint: error.hint(), ..Self::of(key, error.to_string(), "") }
+    }
+
+    /// An error that begins with no setting. Message and hint are taken from `error`.
+    pub(crate) fn as_whole(error: &impl Explain) -> Self {
+        Self { hint: error.hint(), ..Self::whole(error.to_string(), "") }
     }
 
     /// An error for the setting `key`, with another error as its cause.
@@ -106,9 +125,10 @@ impl SettingError {
     #[must_use]
     pub fn message(&self, shown: impl Fn(&str) -> String) -> String {
         let reason = self.reason.with_settings(|name, _| shown(name));
-        match &self.key {
-            Some(key) => format!("{} {reason}", shown(key)),
-            None => reason,
+        let keys: Vec<String> = self.keys.iter().map(|key| shown(key)).collect();
+        match keys.is_empty() {
+            true => reason,
+            false => format!("{} {reason}", keys.join(" or ")),
         }
     }
 }
@@ -131,14 +151,15 @@ impl Explain for SettingError {
     }
 
     fn fault(&self) -> Fault {
-        Fault::Setting
+        self.fault
     }
 }
 
 impl From<RequestError> for SettingError {
     fn from(error: RequestError) -> Self {
         let hint = error.hint();
-        Self { key: error.key, reason: Hint::verbatim(error.reason), hint, cause: None }
+        let keys = error.key.into_iter().collect();
+        Self { keys, hint, ..Self::whole(error.reason, "") }
     }
 }
 
@@ -220,6 +241,35 @@ pub enum PictureError {
     /// The photograph cannot be painted in strokes, or separated into pigments.
     #[error(transparent)]
     Strokes(Box<StrokePainterError>),
+    /// A script of paint volumes cannot be read or written.
+    #[error(transparent)]
+    Script(#[from] ScriptError),
+    /// A script of paint volumes cannot be played.
+    #[error(transparent)]
+    Performance(Box<PerformanceError>),
+    /// The subject cannot hold paint volumes.
+    #[error("{subject}: paint cannot be poured over it")]
+    #[hint(inner)]
+    Scene {
+        /// Path of the subject, or the name of its shape.
+        subject: String,
+        /// Reason.
+        #[source]
+        error: Box<PerformanceError>,
+    },
+    /// A scene with paint volumes cannot be painted.
+    #[error(transparent)]
+    Volumes(#[from] volumes::painter::PaintingError),
+    /// An old snapshot beside the frames of an animation cannot be removed.
+    #[error("{file}: this snapshot cannot be removed")]
+    #[hint(inner)]
+    Snapshot {
+        /// Path of the snapshot.
+        file: String,
+        /// Reason.
+        #[source]
+        error: io::Error,
+    },
     /// Layers for compositing cannot be made.
     #[error(transparent)]
     Compositing(#[from] CompositingError),
@@ -329,6 +379,12 @@ impl From<BackingTextError> for PictureError {
             BackingTextError::Text(error) => Self::Setting(error.at("over").into()),
             error => Self::Paper(error),
         }
+    }
+}
+
+impl From<PerformanceError> for PictureError {
+    fn from(error: PerformanceError) -> Self {
+        Self::Performance(Box::new(error))
     }
 }
 

@@ -261,7 +261,8 @@ impl ExportRequest {
     }
 }
 
-fn opened(
+/// The output at `path`, checked to be writable, with one of these endings.
+pub(crate) fn opened(
     path: Option<&PathBuf>,
     endings: &[&'static str],
     inputs: &[PathBuf],
@@ -443,6 +444,57 @@ impl StageFolder {
 
 fn stage_name(number: usize, name: &str) -> String {
     format!("{number:02}-{name}.png")
+}
+
+/// A folder that all frames can be written to, each as a file of its own.
+#[derive(Debug)]
+pub(crate) struct FrameFolder {
+    folder: OutputFolder,
+    ending: &'static str,
+    frames: usize,
+}
+
+impl FrameFolder {
+    /// Checks that the frames can be written, and that the folder has none beyond them, which would be
+    /// of another animation.
+    pub(crate) fn open(
+        folder: &Path,
+        ending: &'static str,
+        frames: usize,
+        inputs: &[PathBuf],
+    ) -> Result<Self, PictureError> {
+        let folder = OutputFolder::open(folder, inputs)?;
+        let beyond = folder.file(&frame_name(frames, ending));
+        if beyond.exists() {
+            let message = format!("{}: a frame of another animation", beyond.display());
+            let hint = "name an empty folder, or remove its frames";
+            return Err(SettingError::whole(message, hint).into());
+        }
+        folder.check((0..frames).map(|index| frame_name(index, ending)))?;
+        Ok(Self { folder, ending, frames })
+    }
+
+    /// Writes the frames in order, each whole. The folder is made when the first is ready.
+    pub(crate) fn write(
+        self,
+        task: &Task,
+        listener: &mut Listener<'_>,
+        mut frame: impl FnMut(usize) -> Result<Vec<u8>, PictureError>,
+    ) -> Result<(), PictureError> {
+        for index in 0..self.frames {
+            task.check()?;
+            let content = frame(index)?;
+            self.folder.make()?;
+            self.folder.output(&frame_name(index, self.ending))?.put(content)?;
+        }
+        listener(Note::Wrote(self.folder.path().to_owned()));
+        Ok(())
+    }
+}
+
+/// Name of the file of a frame. Indices count from 0, names from 1.
+fn frame_name(index: usize, ending: &str) -> String {
+    format!("frame-{:04}.{ending}", index + 1)
 }
 
 #[cfg(test)]

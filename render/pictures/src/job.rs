@@ -8,6 +8,7 @@ use crate::exports::{Listener, Note, Written};
 use crate::painterly_job::PainterlyJob;
 use crate::request::{Device, PictureOutcome, PictureRequest, TechniqueRequest};
 use crate::strokes_job::StrokesJob;
+use crate::volumes_job::VolumesJob;
 use crate::watercolor_job::WatercolorJob;
 
 /// A picture that can be painted: the request was checked, and its outputs can be written.
@@ -24,6 +25,7 @@ enum Work {
     Watercolor(Box<WatercolorJob>),
     Painterly(Box<PainterlyJob>),
     Strokes(Box<StrokesJob>),
+    Volumes(Box<VolumesJob>),
 }
 
 impl PictureRequest {
@@ -80,6 +82,9 @@ impl PictureRequest {
             TechniqueRequest::Strokes(own) => {
                 Work::Strokes(Box::new(StrokesJob::open(self, own, task, &mut kept)?))
             }
+            TechniqueRequest::Volumes(own) => {
+                Work::Volumes(Box::new(VolumesJob::open(self, own, &mut kept)?))
+            }
         };
         let device = match &work {
             Work::Strokes(job) if !job.paints() => Device::Cpu,
@@ -112,6 +117,7 @@ impl PictureJob {
             Work::Watercolor(job) => job.paint(compute, task, &mut kept)?,
             Work::Painterly(job) => job.paint(compute, task, &mut kept)?,
             Work::Strokes(job) => job.paint(compute, task, &mut kept)?,
+            Work::Volumes(job) => job.paint(compute, task, &mut kept)?,
         };
         Ok(PictureOutcome {
             size: summary.size,
@@ -137,7 +143,9 @@ mod tests {
     use paint::strokes::StrokeScript;
 
     use super::*;
-    use crate::request::{PainterlyRequest, StrokesRequest, TechniqueOutcome, WatercolorRequest};
+    use crate::request::{
+        PainterlyRequest, StrokesRequest, TechniqueOutcome, VolumesRequest, WatercolorRequest,
+    };
 
     fn sphere(technique: TechniqueRequest, folder: &Path) -> PictureRequest {
         let mut request = PictureRequest::new("shape:sphere", technique);
@@ -264,7 +272,7 @@ mod tests {
             (|r| r.style.set = vec!["tolerance=3".into()], "set is for", "`tolerance = 3`"),
             (|r| r.stages = Some("stages".into()), "stages is for", "`strokes_out`"),
             (|r| r.animation.frames = Some("f".into()), "frames is for", "`strokes_out`"),
-            (|r| r.pigments.illuminant = "A".into(), "illuminant takes D65", "relight"),
+            (|r| r.pigments.illuminant = Some("A".into()), "illuminant takes D65", "relight"),
             (|r| r.exports.picture = Some(r.subject.clone()), "an input file", "another file name"),
             (|r| r.pigments.palette = vec!["Mauvein".into()], "`Mauvein`", ""),
         ];
@@ -366,6 +374,145 @@ mod tests {
         assert_eq!(both.files, [maps, folder.path().join("a.json")]);
         let (strokes, painted, separated) = strokes_of(&both);
         assert!(strokes > 0 && painted && separated, "{both:?}");
+    }
+
+    /// A sphere over which paint is poured for a tenth of a second, in wide cells.
+    fn poured(own: VolumesRequest, folder: &Path) -> PictureRequest {
+        let pour = match own.pour.is_empty() {
+            true => vec!["0.5,0.5".to_owned()],
+            false => own.pour,
+        };
+        let seconds = own.seconds.or(Some(0.1));
+        let own = VolumesRequest { pour, seconds, ..own };
+        let mut request = sphere(TechniqueRequest::Volumes(own), folder);
+        request.style.set = vec!["grid.cell=0.25".to_owned(), "picture.samples=1".to_owned()];
+        request
+    }
+
+    #[test]
+    fn the_script_of_poured_paint_makes_the_same_picture() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = |name: &str| folder.path().join(name);
+        let own = VolumesRequest { script_out: Some(file("a.toml")), ..VolumesRequest::default() };
+        let outcome = poured(own, folder.path()).run(&Task::default()).unwrap();
+        assert_eq!(outcome.files, [file("a.png"), file("a.toml")]);
+        assert_eq!((outcome.size, outcome.backend.as_str()), ((24, 18), "cpu"));
+        let TechniqueOutcome::Volumes { volumes: 1.., paint_mm3, steps_computed: 12, .. } =
+            outcome.technique
+        else {
+            panic!("{outcome:?}");
+        };
+        assert!((paint_mm3.on_scene - 60.0).abs() < 1e-3, "{paint_mm3:?}");
+
+        let own = TechniqueRequest::Volumes(VolumesRequest::default());
+        let mut again = PictureRequest { subject: file("a.toml"), ..sphere(own, folder.path()) };
+        again.exports.picture = Some(file("b.png"));
+        let json = serde_json::to_string(&again).unwrap();
+        let again: PictureRequest = documents::request::request_from_json(&json).unwrap();
+        let again = again.run(&Task::default()).unwrap();
+        assert_eq!((again.files, again.technique), (vec![file("b.png")], outcome.technique));
+        let [first, second] = ["a.png", "b.png"].map(|name| std::fs::read(file(name)).unwrap());
+        assert!(first == second, "the script makes another picture");
+        // Without paint in sight the picture is another.
+        let own = VolumesRequest { at: Some(0.0), ..VolumesRequest::default() };
+        poured(own, folder.path()).run(&Task::default()).unwrap();
+        assert!(first != std::fs::read(file("a.png")).unwrap(), "paint brings colour");
+    }
+
+    #[test]
+    fn volumes_and_frames_of_poured_paint_are_written_and_found_again() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = |name: &str| folder.path().join(name);
+        let own = VolumesRequest { volumes: Some(file("meshes")), ..VolumesRequest::default() };
+        let mut request = poured(own, folder.path());
+        request.animation.rate = 10.0;
+        request.animation.animation = Some(file("a.gif"));
+        let first = request.run(&Task::default()).unwrap();
+        assert_eq!(first.files, ["a.png", "meshes", "a.frames", "a.gif"].map(file));
+        assert_eq!((first.frames, first.frames_found), (Some(2), Some(0)));
+        assert!(file("meshes").join("frame-0002.ply").is_file());
+        let again = request.run(&Task::default()).unwrap();
+        assert_eq!((again.frames, again.frames_found), (Some(2), Some(2)));
+        let task = Task::default();
+        task.cancel();
+        let ended = request.run(&task).unwrap_err();
+        assert!(matches!(ended, PictureError::Volumes(_) | PictureError::Cancelled(_)), "{ended}");
+    }
+
+    #[test]
+    fn paint_that_cannot_be_poured_is_refused_and_nothing_is_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let usual = VolumesRequest::default();
+        let text = |text: &str| Some(text.to_owned());
+        let texts = |text: &str| vec![text.to_owned()];
+        for (own, message, hint) in [
+            (
+                VolumesRequest { pour: texts("0.5"), ..usual.clone() },
+                "pour takes X,Y or X,Y,MM3 with shares of 0 to 1 and more than 0 mm3, found `0.5`",
+                "try `pour = 0.5,0.6` or `pour = 0.5,0.6,200`",
+            ),
+            (
+                VolumesRequest { pour: texts("0.01,0.02"), ..usual.clone() },
+                "pour number 1: the first picture shows no surface at 0.010, 0.020",
+                "choose a place on the subject, 0 to 1 across and down",
+            ),
+            (
+                VolumesRequest { seconds: Some(-1.0), ..usual.clone() },
+                "seconds takes 0 to 3600, found `-1`",
+                "",
+            ),
+            (
+                VolumesRequest { at: Some(9.0), ..usual.clone() },
+                "at takes 0 to 0.1 s, found `9`",
+                "give more `seconds`",
+            ),
+            (
+                VolumesRequest { show: "all".to_owned(), ..usual.clone() },
+                "show takes final, volumes, mask, grey, colour, hatching, found `all`",
+                "try `show = final`",
+            ),
+            (
+                VolumesRequest { ground: text("wood"), ..usual.clone() },
+                "ground takes linen, paper, panel, found `wood`",
+                "try `ground = panel`",
+            ),
+            (
+                VolumesRequest { over: text("0.8"), ..usual.clone() },
+                "over needs pigments, but no library is given",
+                "name a `library` after the subject, and give `palette`",
+            ),
+            (
+                VolumesRequest { paint: texts("Ultramarine"), ..usual.clone() },
+                "paint needs pigments, but no library is given",
+                "name a `library`",
+            ),
+            (
+                VolumesRequest { mask: Some(folder.path().join("a.png")), ..usual.clone() },
+                "a.png: two outputs have this file name",
+                "",
+            ),
+        ] {
+            let (found, way_out) = refused(&poured(own, folder.path()));
+            assert!(found.ends_with(message), "{found} for {message}");
+            assert!(!way_out.is_empty() && way_out.contains(hint), "{way_out} for {hint}");
+        }
+        let bare = sphere(TechniqueRequest::Volumes(usual.clone()), folder.path());
+        let wanted = "add `pour = 0.5,0.5`, or a script with [[pour]]";
+        assert_eq!(refused(&bare), ("shape:sphere: nothing is poured".into(), wanted.into()));
+        let mut layers = poured(VolumesRequest { show: "grey".into(), ..usual }, folder.path());
+        layers.exports.layers = Some(folder.path().join("a.ora"));
+        assert_eq!(refused(&layers).0, "layers needs pigments, but no library is given");
+        let oils = "../../measurements/van-gogh-oils.pigments.json";
+        layers.pigments.library = Some(Path::new(env!("CARGO_MANIFEST_DIR")).join(oils));
+        layers.pigments.palette = texts("Ultramarine");
+        let wanted = "layers is of the painting, and show grey is not";
+        assert_eq!(refused(&layers), (wanted.into(), "leave out `layers` or `show`".into()));
+        layers.pigments.palette = texts("Mauve");
+        let (message, _) = refused(&layers);
+        assert!(message.starts_with("palette or paint takes a pigment of the"), "{message}");
+        layers.exports = Default::default();
+        assert_eq!(refused(&layers).0, "nothing would be written");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "nothing was written");
     }
 
     #[test]

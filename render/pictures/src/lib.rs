@@ -45,6 +45,7 @@
 //! | a photograph in strokes, or separated into pigments | [`StrokesRequest`] |
 //! | samples of brushwork: marks proposed, taken from a picture, or painted | [`MarksRequest`], [`SampleRequest`], [`SwatchRequest`] |
 //! | a map of samples, made, checked or drawn | [`ArtMapRequest`], [`ArtMapCheckRequest`], [`SheetRequest`] |
+//! | paint volumes over a model or photograph | [`VolumesRequest`] |
 //!
 //! Modules are ordered by dependence: each uses only modules declared above it.
 
@@ -61,6 +62,7 @@ mod artmap_job;
 mod watercolor_job;
 mod painterly_job;
 mod strokes_job;
+mod volumes_job;
 mod job;
 mod relight;
 mod timelapse;
@@ -82,8 +84,8 @@ pub use exports::{
 pub use job::PictureJob;
 pub use relight::{DryLayerOutcome, LayerOutcome, RelightJob, RelightOutcome, RelightRequest};
 pub use request::{
-    Device, PainterlyRequest, PictureOutcome, PictureRequest, PigmentRequest, StrokesRequest,
-    TechniqueOutcome, TechniqueRequest, WatercolorRequest,
+    Device, PaintAmounts, PainterlyRequest, PictureOutcome, PictureRequest, PigmentRequest,
+    StrokesRequest, TechniqueOutcome, TechniqueRequest, VolumesRequest, WatercolorRequest,
 };
 pub use script::{PlayedSession, ScriptJob, ScriptOutcome, ScriptRequest};
 pub use style::{

@@ -1,12 +1,9 @@
 //! A model or picture painted in the brushwork of art maps, with the files that were asked for.
 
-use std::{
-    path::{Path, PathBuf},
-    sync::Arc,
-};
+use std::sync::Arc;
 
 use calibrate::library::PigmentLibrary;
-use documents::{Task, file::OutputFolder, text::is_toml};
+use documents::{Task, text::is_toml};
 use graphics::{
     camera::{Camera, PictureView},
     compute::Compute,
@@ -31,7 +28,7 @@ use spectra::Viewing;
 use crate::animation::FramesDigest;
 use crate::brushwork::Maps;
 use crate::error::{PictureError, SettingError};
-use crate::exports::{Listener, Note, PX_MM};
+use crate::exports::{FrameFolder, Listener, PX_MM};
 use crate::request::{OpenOutputs, PainterlyRequest, PictureRequest, Summary, TechniqueOutcome};
 use crate::style::{canvas_of, library_of, palette};
 use crate::subject::{self, MOST_FRAMES, PictureViews, check_range};
@@ -45,7 +42,7 @@ pub(crate) struct PainterlyJob {
     /// Title, ground and pigments, if it is a painting.
     painting: Option<Materials>,
     outputs: OpenOutputs,
-    exr_frames: Option<ExrFrames>,
+    exr_frames: Option<FrameFolder>,
 }
 
 /// A subject, with the cameras and the size of its pictures.
@@ -96,7 +93,7 @@ impl PainterlyJob {
         let outputs = request.open_outputs(&inputs)?;
         let exr_frames = own.exr_frames.as_deref();
         let exr_frames = exr_frames
-            .map(|folder| ExrFrames::open(folder, scene.cameras.len(), &inputs))
+            .map(|folder| FrameFolder::open(folder, "exr", scene.cameras.len(), &inputs))
             .transpose()?;
         let preset = request.style.preset::<Painter>()?.unwrap_or(Preset::Impressionist);
         let maps = own.maps(preset.style(), task)?;
@@ -319,51 +316,6 @@ fn materials(
         }
     };
     let ground = canvas_of(&own.ground)?.spec(1);
-    let illuminant = chosen.illuminant.clone();
+    let illuminant = chosen.light().to_owned();
     Ok(Some(Materials { title: request.title(), ground, pigments, illuminant }))
-}
-
-/// A folder that all frames can be written to.
-#[derive(Debug)]
-struct ExrFrames {
-    folder: OutputFolder,
-    frames: usize,
-}
-
-impl ExrFrames {
-    /// Checks that the frames can be written, and that the folder has none beyond them, which would be
-    /// of another animation.
-    fn open(folder: &Path, frames: usize, inputs: &[PathBuf]) -> Result<Self, PictureError> {
-        let folder = OutputFolder::open(folder, inputs)?;
-        let beyond = folder.file(&name(frames));
-        if beyond.exists() {
-            let message = format!("{}: a frame of another animation", beyond.display());
-            let hint = "name an empty folder, or remove its frames";
-            return Err(SettingError::whole(message, hint).into());
-        }
-        folder.check((0..frames).map(name))?;
-        Ok(Self { folder, frames })
-    }
-
-    /// Writes the frames in order, each whole. The folder is made when the first is ready.
-    fn write(
-        self,
-        task: &Task,
-        listener: &mut Listener<'_>,
-        mut frame: impl FnMut(usize) -> Result<Vec<u8>, PictureError>,
-    ) -> Result<(), PictureError> {
-        for index in 0..self.frames {
-            task.check()?;
-            let content = frame(index)?;
-            self.folder.make()?;
-            self.folder.output(&name(index))?.put(content)?;
-        }
-        listener(Note::Wrote(self.folder.path().to_owned()));
-        Ok(())
-    }
-}
-
-/// Name of the frame with this index, counted from 1.
-fn name(index: usize) -> String {
-    format!("frame-{:04}.exr", index + 1)
 }

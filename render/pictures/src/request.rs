@@ -9,6 +9,7 @@ use paint::separation::ColorErrors;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use strokes::{LevelReport, StrokeSettings};
+use volumes::painter::Show;
 
 use crate::animation::{Animation, AnimationRequest};
 use crate::error::{PictureError, SettingError};
@@ -41,7 +42,7 @@ use crate::subject::ViewRequest;
 #[schemars(description = "A picture to paint")]
 pub struct PictureRequest {
     /// A photograph (.png, .jpg, .tif, .webp), a mesh (.obj, .gltf, .glb, .ply), or a built-in shape
-    /// (shape:still-life, shape:village, shape:torus-knot, shape:sphere)
+    /// (shape:still-life, shape:village, shape:torus-knot, shape:sphere). For volumes also a script (.toml)
     pub subject: PathBuf,
     /// How it is painted
     pub technique: TechniqueRequest,
@@ -126,6 +127,8 @@ pub enum TechniqueRequest {
     Painterly(PainterlyRequest),
     /// A photograph is painted stroke by stroke with calibrated pigments, or separated into them
     Strokes(StrokesRequest),
+    /// Paint is poured over a scene drawn in pencil: what it reaches turns to colour
+    Volumes(VolumesRequest),
 }
 
 /// Paper and masks of a watercolour.
@@ -267,23 +270,109 @@ impl Default for StrokesRequest {
     }
 }
 
+/// Pours, ground and files of a scene with paint volumes.
+///
+/// This pours paint over a sphere and writes where it brings colour:
+///
+/// ```
+/// use documents::Task;
+/// use documents::request::request_from_json;
+/// use pictures::{PictureRequest, TechniqueOutcome};
+///
+/// let folder = tempfile::tempdir()?;
+/// let json = format!(
+///     r#"{{
+///         "subject": "shape:sphere",
+///         "technique": {{"volumes": {{"pour": ["0.5,0.5"], "seconds": 0.1, "mask": {:?}}}}},
+///         "view": {{"width": 24}},
+///         "style": {{"set": ["grid.cell=0.25"]}},
+///         "device": "cpu"
+///     }}"#,
+///     folder.path().join("mask.png")
+/// );
+/// let outcome = request_from_json::<PictureRequest>(&json)?.run(&Task::default())?;
+/// assert_eq!(outcome.size, (24, 18));
+/// assert_eq!(outcome.files, [folder.path().join("mask.png")]);
+/// let TechniqueOutcome::Volumes { volumes: 1.., .. } = outcome.technique else {
+///     panic!("no paint was poured");
+/// };
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(description = "Pours, ground and files of a scene with paint volumes")]
+pub struct VolumesRequest {
+    /// Content of pictures: `final`, the result; `volumes`, the volumes over the grey drawing; `mask`,
+    /// white where volumes are and black elsewhere; `grey`, the drawing without volumes; `colour`, the
+    /// scene in colour; `hatching`, the pencil strokes
+    pub show: String,
+    /// Time of single pictures in seconds [default: the end]
+    pub at: Option<f64>,
+    /// Pour paint at places of the first picture: shares of its width and height, and the amount in
+    /// mm3 (without it 60), such as `0.5,0.6` or `0.5,0.6,200`
+    pub pour: Vec<String>,
+    /// Paint of the pours, as pigments with their parts, such as `Ultramarine=2,White=1`: one for all
+    /// of them, or one for each [default: the pigments of the palette, or of the script, in turn]
+    pub paint: Vec<String>,
+    /// How long paint spreads, in seconds [default: 4, or as the script says]
+    pub seconds: Option<f64>,
+    /// Ground: linen, paper or panel [default: that of the script, or panel]
+    pub ground: Option<String>,
+    /// Reflectance of the ground as measured, 0 to 1, white or black, or one spectrum of a file
+    /// [default: that of the script, or the white of the library]
+    pub over: Option<String>,
+    /// Write the picture in layers for compositing, as OpenEXR of several parts: colour, grey, count
+    /// and tint of each region, ink, place, normal, and heights of pigments
+    pub passes: Option<PathBuf>,
+    /// Write a mask as PNG or OpenEXR: white where volumes bring colour
+    pub mask: Option<PathBuf>,
+    /// Write the volumes of each frame into this folder as PLY
+    pub volumes: Option<PathBuf>,
+    /// Write the pours and other events of the scene, and all settings that differ from the preset, as a
+    /// script (.toml)
+    pub script_out: Option<PathBuf>,
+}
+
+impl Default for VolumesRequest {
+    fn default() -> Self {
+        Self {
+            show: Show::default().name().to_owned(),
+            at: None,
+            pour: Vec::new(),
+            paint: Vec::new(),
+            seconds: None,
+            ground: None,
+            over: None,
+            passes: None,
+            mask: None,
+            volumes: None,
+            script_out: None,
+        }
+    }
+}
+
 /// Pigments that a picture is painted with, and the light in which it is seen.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct PigmentRequest {
     /// Library of the pigments. Without it a watercolor has no pigments. A painting of maps then has the pigments
-    /// of its map or, if you name a palette, the Van Gogh oils that ship. Strokes then have these oils
+    /// of its map or, if you name a palette, the Van Gogh oils that ship. Strokes then have these oils. Volumes
+    /// then have the library that their script names
     pub library: Option<PathBuf>,
     /// Names of up to eight pigments of the library [default: the ones nearest to the picture's
     /// colours]
     pub palette: Vec<String>,
-    /// Light: D65, A, FL11, 5600K, or the file of a lamp
-    pub illuminant: String,
+    /// Light: D65, A, FL11, 5600K, or the file of a lamp [default: D65, or the light of a script of volumes]
+    pub illuminant: Option<String>,
 }
 
-impl Default for PigmentRequest {
-    fn default() -> Self {
-        Self { library: None, palette: Vec::new(), illuminant: "D65".to_owned() }
+impl PigmentRequest {
+    /// The light if the request names none.
+    pub(crate) const USUAL_LIGHT: &'static str = "D65";
+
+    /// The light of the request, or the usual one.
+    pub(crate) fn light(&self) -> &str {
+        self.illuminant.as_deref().unwrap_or(Self::USUAL_LIGHT)
     }
 }
 
@@ -368,6 +457,34 @@ pub enum TechniqueOutcome {
         /// Colour error of the separation, if its maps were written.
         separation_error: Option<ColorErrors>,
     },
+    /// Paint volumes at the time of single pictures.
+    Volumes {
+        /// Time of single pictures in seconds.
+        seconds: f64,
+        /// Number of volumes.
+        volumes: usize,
+        /// Number of particles of all volumes.
+        particles: usize,
+        /// Number of cells over the scene's surface.
+        cells: usize,
+        /// Amounts of paint.
+        paint_mm3: PaintAmounts,
+        /// Time in seconds of the snapshot from which an interrupted run went on.
+        from_seconds: Option<f64>,
+        /// Number of steps of the world that were computed.
+        steps_computed: u64,
+    },
+}
+
+/// Where the paint that was poured over a scene is, in mm3.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PaintAmounts {
+    /// Paint on the scene.
+    pub on_scene: f64,
+    /// Paint that was lifted.
+    pub lifted: f64,
+    /// Paint that had no room and stayed in the tube.
+    pub in_tube: f64,
 }
 
 /// Results of a finished job, without the notes of its run.
@@ -411,15 +528,18 @@ mod tests {
         let brushes_mm = vec![8.0, 0.5];
         let strokes = StrokesRequest { brushes_mm, thin: true, ..StrokesRequest::default() };
         let strokes = TechniqueRequest::Strokes(strokes);
-        let [watercolor, strokes] =
-            [watercolor, strokes].map(|technique| PictureRequest::new("a photo.jpg", technique));
-        for request in [full(), watercolor, strokes] {
+        let pour = vec!["0.5,0.6,200".to_owned()];
+        let volumes = VolumesRequest { pour, seconds: Some(0.25), ..VolumesRequest::default() };
+        let volumes = TechniqueRequest::Volumes(volumes);
+        let [watercolor, strokes, volumes] = [watercolor, strokes, volumes]
+            .map(|technique| PictureRequest::new("a photo.jpg", technique));
+        for request in [full(), watercolor, strokes, volumes] {
             let json = serde_json::to_string(&request).unwrap();
             assert_eq!(request_from_json::<PictureRequest>(&json).unwrap(), request, "{json}");
         }
         let short = r#"{"subject": "a photo.jpg", "technique": {"watercolor": {"over": null}}}"#;
         let request: PictureRequest = request_from_json(short).unwrap();
-        assert_eq!(request.pigments.illuminant, "D65");
+        assert_eq!(request.pigments.light(), "D65");
     }
 
     #[test]
@@ -430,6 +550,11 @@ mod tests {
                 of(r#"{"watercolor": {"density_masks": "a.png"}}"#),
                 "unknown key `density_masks`",
                 "did you mean density_mask?",
+            ),
+            (
+                of(r#"{"volumes": {"pours": ["0.5,0.5"]}}"#),
+                "unknown key `pours`",
+                "did you mean pour?",
             ),
             (
                 of(r#"{"painterly": {}}, "exports": {"pictures": "a.png"}"#),

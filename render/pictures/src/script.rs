@@ -191,7 +191,7 @@ impl ScriptRequest {
             timelapse,
             exports,
             outcome,
-            notes,
+            written,
         })
     }
 

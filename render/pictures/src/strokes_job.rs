@@ -177,7 +177,6 @@ fn check_other_keys(request: &PictureRequest) -> Result<(), SettingError> {
     let ViewRequest { width, height, camera, turntable } = view;
     let StyleRequest { preset, settings, set } = style;
     let AnimationRequest { animation, frames, rate: _ } = animation;
-    let PigmentRequest { illuminant, .. } = pigments;
     let pixels = "give [width_mm] and [cell_mm], and [supersample] for more pixels a cell";
     let still = "leave it out: strokes show a photograph from the front";
     let keys = "give the keys of strokes themselves, such as [tolerance=3]";
@@ -199,7 +198,8 @@ fn check_other_keys(request: &PictureRequest) -> Result<(), SettingError> {
             return Err(SettingError::of(key, reason, hint));
         }
     }
-    if illuminant != &PigmentRequest::default().illuminant {
+    let illuminant = pigments.light();
+    if illuminant != PigmentRequest::USUAL_LIGHT {
         let reason = format!("takes D65 for strokes, found `{illuminant}`");
         let hint = "leave it out, and relight the painting afterwards";
         return Err(SettingError::of("illuminant", reason, hint));

@@ -43,10 +43,11 @@ pub struct ViewRequest {
     pub height: Option<u64>,
     /// Camera. For a mesh: degrees around it, degrees above the horizon, and the angle of view, such
     /// as `30,20,30`, at a distance that shows the whole mesh; or a file of keyframes (.toml). For a
-    /// picture with a depth: degrees to the right and upwards, such as `8,4`
+    /// picture that can be turned (under volumes, or with a depth): degrees to the right and upwards,
+    /// such as `8,4`
     pub camera: Option<String>,
     /// Turn the camera around a mesh in this number of frames, 1 to 100000. In front of a picture
-    /// with a depth, the camera swings from side to side
+    /// that can be turned, the camera swings from side to side
     pub turntable: Option<u64>,
 }
 

@@ -177,7 +177,7 @@ fn check_pigments(request: &PictureRequest, own: &WatercolorRequest) -> Result<(
     let key = [
         ("palette", !pigments.palette.is_empty()),
         ("over", own.over.is_some()),
-        ("illuminant", pigments.illuminant != "D65"),
+        ("illuminant", pigments.light() != "D65"),
     ];
     let key = key.into_iter().find(|(_, given)| *given).map(|(key, _)| key);
     match request.exports.key_of_layers().or(key) {
@@ -215,7 +215,7 @@ fn glaze_painter(
         }
         None => GlazePainter::paper_of_settings(settings, &library)?,
     };
-    let illuminant = pigments.illuminant.clone();
+    let illuminant = pigments.light().to_owned();
     let lighting = Lighting { illuminant, ..Lighting::default() };
     let light = Light::new(&library, &Viewing::named(&lighting.illuminant, &lighting.observer)?)?;
     let painter = GlazePainter::new(library, paper, light, lighting);

@@ -63,6 +63,7 @@ fn crates_depend_downwards_only() {
                 "artmap",
                 "painterly",
                 "strokes",
+                "volumes",
                 "watercolor",
             ],
         ),

@@ -77,7 +77,7 @@ impl Watercolor {
             pigments: PigmentRequest {
                 library: pigments.as_ref().or(pigments_before.as_ref()).cloned(),
                 palette: palette.clone(),
-                illuminant: illuminant.clone(),
+                illuminant: Some(illuminant.clone()),
             },
             exports: exports.request(),
             stages: stages.clone(),
@@ -92,7 +92,7 @@ fn print(outcome: &PictureOutcome, as_json: bool, console: &mut Console<'_>) -> 
     let PictureOutcome { size: (width, height), backend, technique, pigments, .. } = outcome;
     let regions = match technique {
         TechniqueOutcome::Watercolor { regions } => *regions,
-        TechniqueOutcome::Painterly { .. } | TechniqueOutcome::Strokes { .. } => None,
+        _ => None,
     };
     if as_json {
         return console.json(&json!({

@@ -3,36 +3,25 @@
 
 use std::path::{Path, PathBuf};
 
-use graphics::camera::{Camera, CameraPath, Framing, Keyframe, PictureView};
-use graphics::mesh::Mesh;
-use pictures::{FARTHEST_DEG, PictureViews, Subject, ViewRequest, picture_turns};
+use documents::text::{KeyPath, ValueFault};
+use graphics::{
+    camera::{Camera, CameraPath, Framing, Keyframe, PictureView},
+    mesh::Mesh,
+};
 use spectra::instrument::split_file_and_name;
 use volumes::performance::{FirstView, Performance, PerformanceError};
 use volumes::script::{
-    CameraTable, KeyframeTable, Row, Script, ScriptCamera, ScriptError, Subject as ScriptSubject,
-    frames_fit, is_light, steps_of,
+    CameraTable, KeyframeTable, Row, ScriptCamera, Subject as ScriptSubject, frames_fit, is_light,
+    steps_of,
 };
 use volumes::settings::Settings;
-use volumes::toml_text::{Fault, KeyPath, KeyStep};
 
-use super::options::PourOptions;
-use crate::failure::{Failure, Result};
-use crate::readings::{is_toml, text};
-
-/// A script with the file that it was read from, if any.
-pub(super) struct OpenScript {
-    pub(super) script: Script,
-    /// Name of the file and its text.
-    file: Option<(String, String)>,
-    /// Number of pours in the script itself. The pours after these come from the command line.
-    own_pours: usize,
-    /// Whether the command line gives the duration.
-    seconds_given: bool,
-    /// Whether the command line gives the camera.
-    camera_given: bool,
-}
+use super::script::OpenScript;
+use crate::error::{PictureError, SettingError};
+use crate::subject::{FARTHEST_DEG, PictureViews, Subject, ViewRequest, picture_turns};
 
 /// A scene ready to be painted.
+#[derive(Debug)]
 pub(super) struct Scene {
     pub(super) mesh: Mesh,
     /// Cameras of the frames. If the camera stands still, this is one.
@@ -48,94 +37,21 @@ pub(super) struct Scene {
 }
 
 impl OpenScript {
-    /// Reads a script, or makes one in which nothing happens to `subject`.
-    pub(super) fn of(subject: &Path, pours: &PourOptions) -> Result<Self> {
-        let seconds_given = pours.has_seconds();
-        if !is_toml(subject) {
-            let script = Script::new(&subject.to_string_lossy(), pours.usual_seconds());
-            return Ok(Self {
-                script,
-                file: None,
-                own_pours: 0,
-                seconds_given,
-                camera_given: false,
-            });
-        }
-        let name = subject.display().to_string();
-        let text = text(subject)?;
-        let script = Script::open_own(subject)?;
-        let own_pours = script.pours.len();
-        Ok(Self { script, file: Some((name, text)), own_pours, seconds_given, camera_given: false })
-    }
-
-    /// Whether it was read from a file.
-    pub(super) fn is_file(&self) -> bool {
-        self.file.is_some()
-    }
-
-    /// A fault of the script with its file and line.
-    pub(super) fn located(&self, fault: Box<Fault>) -> Failure {
-        if let Some(option) = self.option_of(&fault.key) {
-            let Fault { wanted, found, hint, .. } = *fault;
-            let message = format!("{option} takes {wanted}, found `{found}`");
-            // Names of pigments depend on the library.
-            return match option.starts_with("--palette") {
-                true => Failure::data(message, hint),
-                false => Failure::usage(message, hint),
-            };
-        }
-        match &self.file {
-            Some((name, text)) => ScriptError::located(name, text, fault).into(),
-            None => ScriptError::from(fault).into(),
-        }
-    }
-
-    /// The option that gave the value at `key`, if it was one.
-    fn option_of(&self, key: &KeyPath) -> Option<String> {
-        let (first, index) = match &key.0[..] {
-            [KeyStep::Key(first), KeyStep::Index(index), ..] => (first, Some(*index)),
-            [KeyStep::Key(first), ..] => (first, None),
-            _ => return None,
-        };
-        match (first.as_str(), index) {
-            ("seconds", _) if self.seconds_given || self.file.is_none() => {
-                Some("--seconds".to_owned())
-            }
-            ("pour", Some(index)) if index >= self.own_pours => {
-                Some(format!("--pour number {}", index + 1 - self.own_pours))
-            }
-            ("camera", _) if self.camera_given => Some("--camera".to_owned()),
-            ("palette", _) if self.file.is_none() => Some("--palette or --paint".to_owned()),
-            _ => None,
-        }
-    }
-
-    /// An error of playing with its file and line.
-    pub(super) fn located_event(&self, error: PerformanceError) -> Failure {
-        if let Some(option) = error.table().and_then(|table| self.option_of(table)) {
-            return error.placed(option).into();
-        }
-        match &self.file {
-            Some((name, text)) => error.located(name, text).into(),
-            None => error.into(),
-        }
-    }
-
     /// The model or photograph: `path` itself, or what the script there names.
-    fn subject(&self, path: &Path) -> Result<PathBuf> {
-        if self.file.is_none() {
+    fn subject(&self, path: &Path) -> Result<PathBuf, PictureError> {
+        if !self.is_file() {
             return Ok(path.to_owned());
         }
         let folder = path.parent().unwrap_or(Path::new(""));
         match self.script.subject_in(folder).map_err(|fault| self.located(fault))? {
             ScriptSubject::Shape(shape) => Ok(PathBuf::from(format!("shape:{}", shape.name()))),
             ScriptSubject::File(file) if file.is_file() => Ok(file),
-            ScriptSubject::File(file) => Err(self.located(Box::new(Fault {
-                key: KeyPath::of("subject"),
-                wanted: "a file that is there".to_owned(),
-                found: self.script.subject.clone(),
-                hint: format!("put it at {}, or name another file", file.display()),
-            }))),
+            ScriptSubject::File(file) => {
+                let hint = format!("put it at {}, or name another file", file.display());
+                let key = KeyPath::of("subject");
+                let wanted = "a file that is there";
+                Err(self.located(ValueFault::new(&key, wanted, &self.script.subject, hint)))
+            }
         }
     }
 
@@ -144,17 +60,15 @@ impl OpenScript {
         &self,
         scene: &Scene,
         settings: &Settings,
-    ) -> Result<Performance> {
-        let Scene { mesh, cameras, size, .. } = scene;
+    ) -> Result<Performance, PictureError> {
+        let Scene { mesh, cameras, size, subject, .. } = scene;
         let view = FirstView::new(mesh, &cameras[0], *size);
-        Performance::new(&self.script, mesh, settings, &view).map_err(|error| {
-            let of_scene = matches!(error, PerformanceError::World(_));
-            let failure = self.located_event(error);
-            match of_scene {
-                true => failure
-                    .within(format!("{}: paint cannot be poured over it", scene.subject.display())),
-                false => failure,
+        Performance::new(&self.script, mesh, settings, &view).map_err(|error| match error {
+            PerformanceError::World(_) => {
+                let subject = subject.display().to_string();
+                PictureError::Scene { subject, error: Box::new(error) }
             }
+            error => self.located_event(error),
         })
     }
 
@@ -167,7 +81,7 @@ impl OpenScript {
         title: &str,
         folder: &Path,
         (library, light): (Option<&Path>, Option<&str>),
-    ) -> Result<String> {
+    ) -> Result<String, PictureError> {
         let mut script = self.script.clone();
         script.subject = path_from(&scene.subject, folder);
         script.library = library.map(|file| path_from(file, folder)).or(script.library);
@@ -180,28 +94,28 @@ impl OpenScript {
         Ok(script.to_text()?)
     }
 
-    /// Reads the scene. A camera path in the script gets `frames` frames. If options give a camera,
+    /// Reads the scene. A camera path in the script gets `frames` frames. If the request gives a camera,
     /// it replaces the camera of the script.
     pub(super) fn scene(
         &mut self,
         path: &Path,
-        options: &ViewRequest,
+        request: &ViewRequest,
         frames: usize,
-    ) -> Result<Scene> {
+    ) -> Result<Scene, PictureError> {
         let subject = self.subject(path)?;
         // Before a path of the script a photograph is seen as the studio shows it.
-        let camera = self.script.camera.as_ref().filter(|_| !options.has_camera());
+        let camera = self.script.camera.as_ref().filter(|_| !request.has_camera());
         let free =
             camera.is_some_and(|camera| matches!(camera.camera(frames), ScriptCamera::Path(_)));
         let views = if free { PictureViews::Free } else { PictureViews::Turned };
-        let (read, mut inputs) = options.without_camera().subject(&subject, views)?;
-        if self.file.is_some() {
+        let (read, mut inputs) = request.without_camera().subject(&subject, views)?;
+        if self.is_file() {
             inputs.push(path.to_owned());
         }
         let photograph = matches!(read, Subject::Photograph(..));
-        if options.has_camera() {
-            inputs.extend(options.camera_file()?.map(Path::to_owned));
-            self.script.camera = Some(camera_table(options, photograph)?);
+        if request.has_camera() {
+            inputs.extend(request.camera_file()?.map(Path::to_owned));
+            self.script.camera = Some(camera_table(request, photograph)?);
             self.script = self.script.rounded();
             self.camera_given = true;
             self.script.check().map_err(|fault| self.located(fault))?;
@@ -215,17 +129,11 @@ impl OpenScript {
             Subject::Photograph(photograph, width) => {
                 let (own_width, own_height) = photograph.size();
                 let shape = own_height as f64 / own_width as f64;
-                let rows = |columns: usize| ((columns as f64 * shape).round() as usize).max(1);
                 let columns = if free { photograph.usual_width_px() } else { width };
-                let mesh = Mesh::of_picture(&photograph.with_opacity(columns, rows(columns)));
-                let size = (
-                    width,
-                    options
-                        .height
-                        .map(|height| height as usize)
-                        .filter(|_| free)
-                        .unwrap_or(rows(width)),
-                );
+                let mesh =
+                    Mesh::of_picture(&photograph.with_opacity(columns, rows(columns, shape)));
+                let height = request.height.map(|height| height as usize).filter(|_| free);
+                let size = (width, height.unwrap_or_else(|| rows(width, shape)));
                 let view = PictureView::of(photograph.size());
                 let cameras = picture_cameras(&table, view, &mesh, frames);
                 (mesh, size, cameras.map_err(|fault| self.located(fault))?)
@@ -233,9 +141,14 @@ impl OpenScript {
         };
         match cameras.is_empty() {
             false => Ok(Scene { mesh, cameras, size, photograph, subject, inputs }),
-            true => Err(Failure::data("the camera path has no frames", "give frames = 60")),
+            true => Err(PictureError::no_frames()),
         }
     }
+}
+
+/// Rows of a picture with this number of columns. `shape` is the height by the width.
+fn rows(columns: usize, shape: f64) -> usize {
+    ((columns as f64 * shape).round() as usize).max(1)
 }
 
 /// The path of a subject relative to a folder, or its whole path if it does not lie below the folder.
@@ -258,16 +171,16 @@ fn lamp_from(lamp: &str, folder: &Path) -> String {
     name.map_or(file.clone(), |name| format!("{file}#{name}"))
 }
 
-/// The camera that options choose, for a script of a model or a photograph.
-pub(super) fn camera_table(options: &ViewRequest, photograph: bool) -> Result<CameraTable> {
-    let turntable = options.turntable.and_then(|frames| u32::try_from(frames).ok());
+/// The camera that a request chooses, for a script of a model or a photograph.
+fn camera_table(request: &ViewRequest, photograph: bool) -> Result<CameraTable, PictureError> {
+    let turntable = request.turntable.and_then(|frames| u32::try_from(frames).ok());
     if photograph {
-        let way = options.picture_camera()?.map(|way| way.map(f64::from));
+        let way = request.picture_camera()?.map(|way| way.map(f64::from));
         let [azimuth_deg, elevation_deg] = [0, 1].map(|axis| way.map(|way| way[axis]));
         return Ok(CameraTable { azimuth_deg, elevation_deg, turntable, ..CameraTable::default() });
     }
-    let Some(path) = options.camera_file()? else {
-        let Framing { azimuth_deg, elevation_deg, field_of_view_deg, .. } = options.framing(1.0)?;
+    let Some(path) = request.camera_file()? else {
+        let Framing { azimuth_deg, elevation_deg, field_of_view_deg, .. } = request.framing(1.0)?;
         return Ok(CameraTable {
             azimuth_deg: Some((azimuth_deg % 360.0).into()),
             elevation_deg: Some(elevation_deg.into()),
@@ -292,7 +205,7 @@ pub(super) fn camera_table(options: &ViewRequest, photograph: bool) -> Result<Ca
 
 /// The cameras of a model in a picture of this size. A path that does not state its number of
 /// frames gets `frames`.
-pub(super) fn model_cameras(
+fn model_cameras(
     table: &CameraTable,
     mesh: &Mesh,
     (width, height): (usize, usize),
@@ -312,24 +225,17 @@ pub(super) fn model_cameras(
 /// The cameras before a photograph.
 ///
 /// # Errors
-/// [`Fault`] if the camera is too far to a side, or if the table gives an angle of view: a photograph
+/// [`ValueFault`] if the camera is too far to a side, or if the table gives an angle of view: a photograph
 /// always fills the picture.
-pub(super) fn picture_cameras(
+fn picture_cameras(
     table: &CameraTable,
     view: PictureView,
     mesh: &Mesh,
     frames: usize,
-) -> Result<Vec<Camera>, Box<Fault>> {
+) -> Result<Vec<Camera>, Box<ValueFault>> {
     if let ScriptCamera::Path(path) = table.camera(frames) {
         return Ok(path.cameras(mesh.bounds()));
     }
-    let degrees = |name, value: Option<f64>| match value {
-        Some(value) if value.abs() > f64::from(FARTHEST_DEG) => {
-            let wanted = format!("-{FARTHEST_DEG} to {FARTHEST_DEG} before a photograph");
-            Err(fault(name, wanted, value, "0 is straight before it"))
-        }
-        value => Ok(value.unwrap_or(0.0) as f32),
-    };
     let right = degrees("azimuth_deg", table.azimuth_deg)?;
     let up = degrees("elevation_deg", table.elevation_deg)?;
     if let Some(angle) = table.field_of_view_deg {
@@ -341,14 +247,24 @@ pub(super) fn picture_cameras(
     Ok(turns.into_iter().map(|[right, up]| view.turned(right, up)).collect())
 }
 
+/// An angle before a photograph.
+fn degrees(name: &str, value: Option<f64>) -> Result<f32, Box<ValueFault>> {
+    match value {
+        Some(value) if value.abs() > f64::from(FARTHEST_DEG) => {
+            let wanted = format!("-{FARTHEST_DEG} to {FARTHEST_DEG} before a photograph");
+            Err(fault(name, wanted, value, "0 is straight before it"))
+        }
+        value => Ok(value.unwrap_or(0.0) as f32),
+    }
+}
+
 /// The fault of a value of the table.
-fn fault(name: &str, wanted: String, found: f64, hint: &str) -> Box<Fault> {
-    let key = KeyPath::of("camera").key(name);
-    let hint = hint.to_owned();
-    Box::new(Fault { key, wanted, found: found.to_string(), hint })
+fn fault(name: &str, wanted: String, found: f64, hint: &str) -> Box<ValueFault> {
+    ValueFault::new(&KeyPath::of("camera").key(name), wanted, found, hint)
 }
 
 /// Steps of a world at which pictures are made.
+#[derive(Debug)]
 pub(super) struct Times {
     /// Step of single pictures.
     pub(super) still: u64,
@@ -359,13 +275,17 @@ pub(super) struct Times {
 impl Times {
     /// The step of the still at `at` seconds (`None` is the end), and the steps of `frames` frames
     /// at `rate` frames a second. Frames after the end of a script of `seconds` show the end.
-    pub(super) fn of(seconds: f64, at: Option<f64>, rate: f64, frames: usize) -> Result<Self> {
+    pub(super) fn of(
+        seconds: f64,
+        at: Option<f64>,
+        rate: f64,
+        frames: usize,
+    ) -> Result<Self, SettingError> {
         let at = at.unwrap_or(seconds);
         if !(0.0..=seconds).contains(&at) {
-            return Err(Failure::usage(
-                format!("--at takes 0 to {seconds} s, found `{at}`"),
-                "leave it out for the end, or give more --seconds",
-            ));
+            let reason = format!("takes 0 to {seconds} s, found `{at}`");
+            let hint = "leave it out for the end, or give more [seconds]";
+            return Err(SettingError::of("at", reason, hint));
         }
         let frames =
             (0..frames).map(|frame| u64::from(steps_of((frame as f64 / rate).min(seconds))));
@@ -373,7 +293,7 @@ impl Times {
     }
 
     /// Number of frames of a script at `rate` frames a second.
-    pub(super) fn frames(script: &OpenScript, rate: f64) -> Result<usize, Box<Fault>> {
+    pub(super) fn frames(script: &OpenScript, rate: f64) -> Result<usize, Box<ValueFault>> {
         frames_fit(script.script.seconds, rate).map(|frames| frames as usize)
     }
 
