@@ -88,17 +88,3 @@ impl Deref for Output {
         &self.0
     }
 }
-
-/// A folder that you can write stages to ([`pictures::StageFolder`]).
-pub(crate) struct StageFolder(pictures::StageFolder);
-
-impl StageFolder {
-    pub(crate) fn open(folder: &Path, inputs: &[PathBuf]) -> Result<Self> {
-        Ok(Self(pictures::StageFolder::open(folder, inputs)?))
-    }
-
-    /// Reports that the folder was written.
-    pub(crate) fn told(&self, console: &mut Console<'_>) -> Result<()> {
-        console.wrote(self.0.path())
-    }
-}

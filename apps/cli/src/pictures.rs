@@ -8,9 +8,9 @@ use clap::{
     builder::{PossibleValuesParser, TypedValueParser},
     value_parser,
 };
-use documents::{Task, counted, file};
-use graphics::{compute::Compute, field::Field};
-use paint::{ground::GroundKind, painting::Painting, scene::PixelsPerCell};
+use documents::{Task, counted};
+use graphics::compute::Compute;
+use paint::{ground::GroundKind, scene::PixelsPerCell};
 use pictures::{ExportRequest, Listener, Note, PictureOutcome, PictureRequest};
 
 use crate::console::{Console, without_noise};
@@ -95,31 +95,6 @@ impl Exports {
             },
             pigment_maps: self.pigment_maps.clone(),
         }
-    }
-
-    /// Whether any export is requested.
-    pub(crate) fn any(&self) -> bool {
-        self.request().any()
-    }
-
-    /// Checks, before the slow part of a verb, that all files can be written.
-    pub(crate) fn open(self, inputs: &[PathBuf]) -> Result<OpenExports> {
-        Ok(OpenExports(self.request().open(inputs)?))
-    }
-}
-
-/// Export files that were checked to be writable ([`pictures::OpenExports`]).
-pub(crate) struct OpenExports(pictures::OpenExports);
-
-impl OpenExports {
-    /// Whether `other` is one of the export files.
-    pub(crate) fn writes(&self, other: &file::Output) -> bool {
-        self.0.writes(other)
-    }
-
-    /// Computes all exports of `painting` and writes their files.
-    pub(crate) fn write(self, painting: &mut Painting, console: &mut Console<'_>) -> Result<()> {
-        heard(console, |task, listener| Ok(self.0.write(painting, task, listener)?))
     }
 }
 

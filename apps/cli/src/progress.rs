@@ -150,9 +150,3 @@ impl Following {
         self.0.bar.suspend(print)
     }
 }
-
-/// Does long work behind a spinner or a bar. `work` must not print.
-pub(crate) fn followed<T>(console: &Console<'_>, work: impl FnOnce(&Task) -> T) -> T {
-    let following = Following::new(console);
-    work(&following.task())
-}

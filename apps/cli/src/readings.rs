@@ -18,8 +18,6 @@ use clap::{Arg, Args};
 use documents::counted_as;
 use documents::file::is_there;
 
-pub(crate) use documents::text::is_toml;
-
 use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::request_options::{CommandLine, RequestOptions};

@@ -41,7 +41,7 @@ use paint::{
 use painterly::{CompositingError, PainterError, RegionsError, guides::GuidesError};
 use spectra::ViewingError;
 use strokes::{StrokePainterError, StrokeSettingsError};
-use volumes::{performance::PerformanceError, script::ScriptError};
+use volumes::performance::PerformanceError;
 use watercolor::WatercolorError;
 
 /// A setting that has another value than it takes, or does not fit the others.
@@ -118,7 +118,7 @@ impl SettingError {
     /// The setting with which the message begins.
     #[must_use]
     pub fn key(&self) -> Option<&str> {
-        self.key.as_deref()
+        self.keys.first().map(String::as_str)
     }
 
     /// The message with settings as a program shows them, such as options of a command line.
@@ -243,7 +243,7 @@ pub enum PictureError {
     Strokes(Box<StrokePainterError>),
     /// A script of paint volumes cannot be read or written.
     #[error(transparent)]
-    Script(#[from] ScriptError),
+    VolumeScript(#[from] volumes::script::ScriptError),
     /// A script of paint volumes cannot be played.
     #[error(transparent)]
     Performance(Box<PerformanceError>),
@@ -300,9 +300,6 @@ pub enum PictureError {
     /// Samples of several files do not make one map.
     #[error(transparent)]
     Join(#[from] JoinError),
-    /// A painting cannot be read.
-    #[error(transparent)]
-    PaintingFile(#[from] PaintingFileError),
     /// No map can be made of samples.
     #[error(transparent)]
     Synthesis(#[from] SynthesisError),
@@ -346,7 +343,7 @@ pub enum PictureError {
     ScriptStart(#[from] ScriptStartError),
     /// A timelapse cannot be made.
     #[error(transparent)]
-    Timelapse(#[from] TimelapseError),
+    Timelapse(Box<TimelapseError>),
     /// A part of the work fails, for example an action of a script.
     #[error("{part}")]
     #[hint(inner = error)]
@@ -385,6 +382,12 @@ impl From<BackingTextError> for PictureError {
 impl From<PerformanceError> for PictureError {
     fn from(error: PerformanceError) -> Self {
         Self::Performance(Box::new(error))
+    }
+}
+
+impl From<TimelapseError> for PictureError {
+    fn from(error: TimelapseError) -> Self {
+        Self::Timelapse(Box::new(error))
     }
 }
 

@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 use spectra::Viewing;
 
 use crate::error::{PictureError, SettingError};
-use crate::exports::{ExportRequest, Listener, Note, Written, OpenExports};
+use crate::exports::{ExportRequest, Listener, Note, OpenExports, Written};
 use crate::request::Device;
 
 /// A stored painting to show under another light, or as if painted with other pigments. [`Self::run`] shows it.

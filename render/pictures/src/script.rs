@@ -29,7 +29,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer, ser::SerializeMap};
 
 use crate::error::{PictureError, SettingError};
-use crate::exports::{ExportRequest, Listener, Note, Written, OpenExports, gamut_remark};
+use crate::exports::{ExportRequest, Listener, Note, OpenExports, Written, gamut_remark};
 use crate::relight::{opened_engine, undo_bytes, undo_memory};
 use crate::request::Device;
 use crate::timelapse::{OpenTimelapse, TimelapseOutcome, TimelapseRequest};
