@@ -101,6 +101,9 @@ enum WithDefaults {
     #[error("inner {1}")]
     #[hint(inner)]
     Marked(usize, #[source] Plain),
+    #[error("inner {1}")]
+    #[hint(inner = 1)]
+    Indexed(usize, Plain),
     #[error("inner {error}")]
     #[hint(inner)]
     #[fault(Environment)]
@@ -126,6 +129,7 @@ fn an_enum_has_defaults_and_a_wrapped_error_its_own() {
         (expression().into(), (None, Fault::Environment)),
         (WithDefaults::TransparentWithHint(io()), (hint("its own"), Fault::Environment)),
         (WithDefaults::Marked(1, Plain::Text), (hint("set `backend = cpu`"), Fault::Input)),
+        (WithDefaults::Indexed(1, Plain::Text), (hint("set `backend = cpu`"), Fault::Input)),
         (
             WithDefaults::Named { file: "a.csv".to_owned(), error: Box::new(Plain::Function) },
             (hint("function of g"), Fault::Environment),

@@ -52,7 +52,7 @@ impl ColorRendering {
     /// white of its temperature.
     pub fn of(light: &Illuminant) -> Result<Self, ColorRenderingError> {
         let temperature = ColorTemperature::of(light)
-            .ok_or_else(|| ColorRenderingError::NotWhite { name: light.name().to_owned() })?;
+            .ok_or_else(|| ColorRenderingError::NotWhite(light.name().to_owned()))?;
         let kelvin = temperature.kelvin;
         if kelvin > BLUEST {
             return Err(ColorRenderingError::TooBlue { name: light.name().to_owned(), kelvin });
@@ -70,13 +70,10 @@ impl ColorRendering {
 pub enum ColorRenderingError {
     /// The light is coloured.
     #[error(
-        "{name} is not a white light: it is farther than 0.05 from every black body in CIE 1960 (u, v)"
+        "{0} is not a white light: it is farther than 0.05 from every black body in CIE 1960 (u, v)"
     )]
     #[hint("colour rendering compares a lamp with a white of its temperature")]
-    NotWhite {
-        /// Name of the light.
-        name: String,
-    },
+    NotWhite(String),
     /// There is no daylight that is so blue.
     #[error("{name} has a colour temperature of {kelvin:.0} K, and the reference ends at 25000 K")]
     #[hint("colour rendering compares a lamp with a white of its temperature")]
@@ -468,9 +465,7 @@ mod tests {
                 |nm| if (nm - 530.0).abs() < 20.0 { 1.0 } else { 0.0 },
             );
         let refused = ColorRendering::of(&green.unwrap()).unwrap_err();
-        assert!(
-            matches!(refused, ColorRenderingError::NotWhite { .. }) && refused.hint().is_some()
-        );
+        assert!(matches!(refused, ColorRenderingError::NotWhite(..)) && refused.hint().is_some());
         let blue = ColorRendering::of(&black_body(40_000.0).unwrap()).unwrap_err();
         assert!(blue.to_string().contains("40000 K"), "{blue}");
     }

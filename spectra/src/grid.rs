@@ -27,7 +27,7 @@ impl Grid {
     pub fn from_nm(start_nm: f64, step_nm: f64, count: usize) -> Result<Self, GridError> {
         let start = Wavelength::from_nm(start_nm)?;
         if !(step_nm.is_finite() && step_nm > 0.0) {
-            return Err(GridError::Step { step_nm });
+            return Err(GridError::Step(step_nm));
         }
         if count == 0 {
             return Err(GridError::Empty);
@@ -176,11 +176,8 @@ pub enum GridError {
     #[error(transparent)]
     Start(#[from] WavelengthError),
     /// The step is not a finite number above 0.
-    #[error("the step of a grid is a finite number of nanometres above 0, found `{step_nm}`")]
-    Step {
-        /// The step that was given, in nm.
-        step_nm: f64,
-    },
+    #[error("the step of a grid is a finite number of nanometres above 0, found `{0}`")]
+    Step(f64),
     /// The last wavelength is not a whole number of steps from the first.
     #[error("{last_nm} nm is not a whole number of steps of `{step_nm}` nm from {first_nm} nm")]
     Range {

@@ -32,7 +32,7 @@ impl Illuminant {
             .iter()
             .skip(1)
             .find(|(known, _)| known.eq_ignore_ascii_case(name))
-            .ok_or_else(|| IlluminantError::Unknown { name: name.to_owned() })?;
+            .ok_or_else(|| IlluminantError::Unknown(name.to_owned()))?;
         let (nm, values) = filled(tables, known).expect("the column was just found");
         Self::from_samples(known, &IrregularSpectrum::new(nm, values)?)
     }
@@ -65,7 +65,7 @@ impl Illuminant {
         let grid = Grid::cie();
         let power = Spectrum::new(grid, grid.wavelengths_nm().map(power).collect())?;
         if power.values().iter().all(|&v| v == 0.0) {
-            return Err(IlluminantError::Dark { name: name.to_owned() });
+            return Err(IlluminantError::Dark(name.to_owned()));
         }
         Ok(Self { name: name.to_owned(), power })
     }
@@ -92,27 +92,16 @@ fn tables() -> &'static [(String, Vec<Option<f64>>)] {
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum IlluminantError {
     /// The illuminant name is not in the table.
-    #[error("no CIE illuminant is called `{name}`")]
+    #[error("no CIE illuminant is called `{0}`")]
     #[hint("use a name such as D65, A, FL11 or LED-B3")]
-    Unknown {
-        /// The name that was given.
-        name: String,
-    },
+    Unknown(String),
     /// The temperature is outside the defined range.
-    #[error(
-        "daylight is defined from 4000 to 25000 K, a black body here from 500 K, found `{kelvin}`"
-    )]
+    #[error("daylight is defined from 4000 to 25000 K, a black body here from 500 K, found `{0}`")]
     #[hint("daylight is defined from D4000K to D25000K, a black body from 500K")]
-    Temperature {
-        /// The temperature in K.
-        kelvin: f64,
-    },
+    Temperature(f64),
     /// The power is 0 at every wavelength from 360 to 830 nm.
-    #[error("the light has no power at any wavelength from 360 to 830 nm: `{name}`")]
-    Dark {
-        /// Name of the light.
-        name: String,
-    },
+    #[error("the light has no power at any wavelength from 360 to 830 nm: `{0}`")]
+    Dark(String),
     /// The wavelengths do not form a spectrum.
     #[error(transparent)]
     IrregularSpectrum(#[from] IrregularSpectrumError),

@@ -75,7 +75,7 @@ impl Interpolation {
         ends: Extrapolation,
     ) -> Result<InterpolationRow, InterpolateError> {
         if self == Self::Sprague && grid.count() < 6 {
-            return Err(InterpolateError::TooFew { count: grid.count() });
+            return Err(InterpolateError::TooFew(grid.count()));
         }
         let last = grid.count() - 1;
         if !grid.covers(nm) {
@@ -174,11 +174,8 @@ pub enum InterpolateError {
         end_nm: f64,
     },
     /// Sprague's polynomial requires six wavelengths.
-    #[error("sprague interpolation needs 6 wavelengths, found `{count}`")]
-    TooFew {
-        /// Number of wavelengths in the data.
-        count: usize,
-    },
+    #[error("sprague interpolation needs 6 wavelengths, found `{0}`")]
+    TooFew(usize),
 }
 
 /// A curve of cubic pieces with continuous slope and second derivative. The second derivative is 0 at both

@@ -47,7 +47,7 @@ pub fn light_from_text(text: &str) -> Result<Illuminant, LightError> {
     }
     let (file, spectrum) = split_file_and_name(text);
     if !file::is_there(Path::new(split_file_and_sheet(file).0)) {
-        return Err(LightError::Unknown { text: text.to_owned() });
+        return Err(LightError::Unknown(text.to_owned()));
     }
     Ok(lamp_from_bytes(file, &bytes_of(file)?, spectrum)?)
 }
@@ -56,17 +56,14 @@ pub fn light_from_text(text: &str) -> Result<Illuminant, LightError> {
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum LightError {
     /// The text is neither a name, a temperature nor the path of a file.
-    #[error("neither a CIE illuminant, a temperature nor a file of a lamp: `{text}`")]
+    #[error("neither a CIE illuminant, a temperature nor a file of a lamp: `{0}`")]
     #[hint(
         verbatim,
         "{}use a name such as D65, A, FL11 or LED-B3, a black body as 5600K, daylight as D5600K (4000 to 25000), or the path of a lamp's file (an instrument's, or two columns `nm,power`)",
-        did_you_mean(text)
+        did_you_mean(_0)
     )]
     #[fault(Setting)]
-    Unknown {
-        /// The text that was given.
-        text: String,
-    },
+    Unknown(String),
     /// The file cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
@@ -156,7 +153,7 @@ pub fn lamp_from_bytes(
     let spectra = match read(file, bytes, None) {
         // Very short files are not recognised as columns. Reading them as such gives a better
         // error.
-        Err(InstrumentError::Unrecognised { .. }) => read(file, bytes, Some(Format::Columns)),
+        Err(InstrumentError::Unrecognised(..)) => read(file, bytes, Some(Format::Columns)),
         known => known,
     }?
     .spectra;
@@ -202,7 +199,7 @@ pub enum LampError {
     /// The file cannot be read as any format.
     #[error(transparent)]
     #[hint(
-        if matches!(_0, InstrumentError::Unrecognised { .. } | InstrumentError::Empty { .. }),
+        if matches!(_0, InstrumentError::Unrecognised(..) | InstrumentError::Empty { .. }),
         "a lamp is a file of an instrument, or two columns `nm,power`"
     )]
     #[hint(inner)]
@@ -279,7 +276,7 @@ pub enum LampError {
 pub fn daylight(kelvin: f64) -> Result<Illuminant, IlluminantError> {
     let name = format!("daylight {kelvin} K");
     if !(4000.0..=25000.0).contains(&kelvin) {
-        return Err(IlluminantError::Temperature { kelvin });
+        return Err(IlluminantError::Temperature(kelvin));
     }
     let (x, y) = daylight_chromaticity(kelvin);
     let m = 0.0241 + 0.2562 * x - 0.7341 * y;
@@ -330,7 +327,7 @@ pub const SECOND_RADIATION_CONSTANT: f64 = 1.4388e-2;
 pub fn black_body(kelvin: f64) -> Result<Illuminant, IlluminantError> {
     let name = format!("black body {kelvin} K");
     if !(kelvin.is_finite() && kelvin >= 500.0) {
-        return Err(IlluminantError::Temperature { kelvin });
+        return Err(IlluminantError::Temperature(kelvin));
     }
     Illuminant::from_function(&name, |nm| 100.0 * planck(nm, kelvin) / planck(560.0, kelvin))
 }

@@ -229,7 +229,7 @@ mod tests {
         // Set by hand, because a worker without a graphics device stores no snapshot.
         worker.kept = saved.then(|| snapshot.clone());
         events.borrow_mut().clear();
-        let gone = DeviceError::Lost { reason: "it was pulled out".to_owned() };
+        let gone = DeviceError::Lost("it was pulled out".to_owned());
         worker.report_failure(&PaintingError::Engine(gone));
         let found = worker.open.as_mut().map(|open| open.prepared.session.documents().unwrap());
         if let Some((canvas, palette)) = found {

@@ -38,14 +38,9 @@ use spectra::swatch_file::{SwatchColor, SwatchEntry, SwatchFile};
 #[derive(Debug, thiserror::Error, Explain)]
 pub enum SwatchBookError {
     /// The file is not JSON.
-    #[error("{file}: {source}")]
+    #[error("{0}: {1}")]
     #[hint("choose a file that the studio has written")]
-    Json {
-        /// Name of the file.
-        file: String,
-        /// Line and column of the fault.
-        source: serde_json::Error,
-    },
+    Json(String, #[source] serde_json::Error),
     /// The file is JSON of another kind, or of a later version.
     #[error("{file}: key `{key}`: expected {expected}, found `{found}`")]
     #[hint(if *key == "version", "a later version of the studio wrote it; use that one")]
@@ -328,7 +323,7 @@ impl SwatchBook {
     /// [`SwatchBookError`] naming the file and the key.
     pub fn from_json(file: &str, text: &str) -> Result<Self, SwatchBookError> {
         let read: Map<String, Value> = serde_json::from_str(text)
-            .map_err(|source| SwatchBookError::Json { file: file.to_owned(), source })?;
+            .map_err(|source| SwatchBookError::Json(file.to_owned(), source))?;
         let found = |key: &str| read.get(key).cloned().unwrap_or(Value::Null);
         for (key, expected) in [("format", json!(FORMAT)), ("version", json!(VERSION))] {
             if found(key) != expected {

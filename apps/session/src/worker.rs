@@ -533,8 +533,7 @@ impl<'a> WorkerLoop<'a> {
     pub(super) fn report_failure(&mut self, error: &PaintingError) {
         self.send_message(error.to_string(), error.hint(), true);
         self.state_stale = true;
-        if let PaintingError::Engine(DeviceError::Lost { .. } | DeviceError::Refused { .. }) = error
-        {
+        if let PaintingError::Engine(DeviceError::Lost(..) | DeviceError::Refused { .. }) = error {
             self.recover();
         }
     }

@@ -144,6 +144,6 @@ mod tests {
     fn tubes_that_cannot_be_mixed_give_the_reason() {
         let mut maker = WheelMaker::default();
         let (_, made) = wait(&mut maker, &request(&[]));
-        assert_eq!(*made, Err(PaletteError::NothingToMix { pigments: 0 }));
+        assert_eq!(*made, Err(PaletteError::NothingToMix(0)));
     }
 }

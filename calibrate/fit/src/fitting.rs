@@ -275,9 +275,9 @@ fn reference(set: &SwatchSet, name: Option<&str>) -> Result<PigmentId, FittingEr
         .into_iter()
         .rev()
         .max_by_key(|&index| set.swatches.iter().filter(|s| s.amounts[index] > 0.0).count());
-    commonest.map(PigmentId).ok_or_else(|| FittingError::NoWhite {
-        first: set.pigments.first().cloned().unwrap_or_default(),
-    })
+    commonest
+        .map(PigmentId)
+        .ok_or_else(|| FittingError::NoWhite(set.pigments.first().cloned().unwrap_or_default()))
 }
 
 /// The film model of absolute amounts. We choose it by cross-validation if you do not state it.
@@ -436,11 +436,8 @@ pub enum FittingError {
     },
     /// No pigment can be guessed as the reference.
     #[error("no pigment is called white, so none can be the reference whose S is 1")]
-    #[hint("name it: [reference=\"{first}\"]")]
-    NoWhite {
-        /// Name of the first pigment, for advice.
-        first: String,
-    },
+    #[hint("name it: [reference=\"{0}\"]")]
+    NoWhite(String),
     /// Every sample is excluded.
     #[error("every sample is excluded")]
     #[hint("leave out some [exclude]")]
@@ -461,20 +458,14 @@ pub enum FittingError {
     #[fault(Setting)]
     AbsoluteResiduals,
     /// A validation needs two groups or more.
-    #[error("a validation in groups needs at least 2, found `{folds}`")]
+    #[error("a validation in groups needs at least 2, found `{0}`")]
     #[hint("try [folds=10]")]
     #[fault(Setting)]
-    Folds {
-        /// Number of groups that was given.
-        folds: usize,
-    },
+    Folds(usize),
     /// No mixture can be left out.
-    #[error("{}", nothing_to_leave_out(needed))]
+    #[error("{}", nothing_to_leave_out(.0))]
     #[hint("measure more mixtures of each pigment (masstone, two tints, a shade)")]
-    NothingToLeaveOut {
-        /// Mixtures without which a pigment would not be identified.
-        needed: Vec<String>,
-    },
+    NothingToLeaveOut(Vec<String>),
     /// The readings have no visible wavelength.
     #[error(transparent)]
     Band(#[from] BandError),

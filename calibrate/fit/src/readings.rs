@@ -162,7 +162,7 @@ impl Readings {
     /// [`MeasurementError::NoPigmentColumn`] for the first that has none.
     pub fn check_has_pigments(&self, pigments: &[String]) -> Result<(), MeasurementError> {
         match pigments.iter().find(|name| !self.table.pigments.contains(name)) {
-            Some(name) => Err(MeasurementError::NoPigmentColumn { name: name.clone() }),
+            Some(name) => Err(MeasurementError::NoPigmentColumn(name.clone())),
             None => Ok(()),
         }
     }
@@ -245,7 +245,7 @@ fn of_bytes(
     let (table, remarks) = match instrument_file(file, bytes, options.format)? {
         Some(spectra) => instrument_table(file, spectra, options, references)?,
         None if references.is_some() => {
-            return Err(ReadingsError::CsvOfCounts { file: file.to_owned() });
+            return Err(ReadingsError::CsvOfCounts(file.to_owned()));
         }
         None => csv_table(file, bytes, options, spectra_only)?,
     };
@@ -464,13 +464,10 @@ pub enum ReadingsError {
         reason: ReferencingError,
     },
     /// A white is given, but the file is a measurement CSV, which holds reflectances.
-    #[error("a white needs counts as an instrument writes them, found a CSV: `{file}`")]
+    #[error("a white needs counts as an instrument writes them, found a CSV: `{0}`")]
     #[hint(
         "give the spectrometer's own file, or two columns `nm counts`, or leave out [white_reading]"
     )]
     #[fault(Setting)]
-    CsvOfCounts {
-        /// File name as the caller gave it.
-        file: String,
-    },
+    CsvOfCounts(String),
 }

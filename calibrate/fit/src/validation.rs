@@ -539,7 +539,7 @@ impl PreparedFit {
         task: &Task,
     ) -> Result<FitValidation, FittingError> {
         if let Some(folds) = options.folds.filter(|folds| *folds < 2) {
-            return Err(FittingError::Folds { folds });
+            return Err(FittingError::Folds(folds));
         }
         let chosen = self.chosen(options)?;
         let folds = match self.model {
@@ -563,7 +563,7 @@ impl PreparedFit {
             FilmModel::Absolute(film) => leave_out_films(&self.set, film, &plan)?,
         };
         if errors.per_sample.is_empty() {
-            return Err(FittingError::NothingToLeaveOut { needed: errors.needed });
+            return Err(FittingError::NothingToLeaveOut(errors.needed));
         }
         Ok(FitValidation { errors, fit, folds, viewing })
     }

@@ -284,15 +284,9 @@ pub enum CameraError {
         samples: usize,
     },
     /// The spectra of the scene have too few wavelengths that the camera sees.
-    #[error(
-        "the camera sees {} to {} nm, the spectra of the scene go from {} to {} nm",
-        RANGE_NM[0], RANGE_NM[1], grid.start_nm(), grid.end_nm()
-    )]
+    #[error("the camera sees {} to {} nm, the spectra of the scene go from {} to {} nm", RANGE_NM[0], RANGE_NM[1], .0.start_nm(), .0.end_nm())]
     #[hint("paint with a library of visible or near infrared wavelengths")]
-    Wavelengths {
-        /// Wavelengths of the scene.
-        grid: Grid,
-    },
+    Wavelengths(Grid),
 }
 
 /// Distance in pixels between independent values of k1. In between, k1 changes smoothly.
@@ -463,7 +457,7 @@ impl CameraBands {
         let first = grid.start_nm().max(RANGE_NM[0]);
         let last = grid.end_nm().min(RANGE_NM[1]);
         if first >= last {
-            return Err(CameraError::Wavelengths { grid });
+            return Err(CameraError::Wavelengths(grid));
         }
         let nm: Vec<f64> = (0..count)
             .map(|band| first + (last - first) * band as f64 / (count.max(2) - 1) as f64)
@@ -472,7 +466,7 @@ impl CameraBands {
             .collect();
         let units = (0..grid.count()).map(|at| {
             let unit = (0..grid.count()).map(|other| f64::from(u8::from(other == at))).collect();
-            Spectrum::<Response>::new(grid, unit).map_err(|_| CameraError::Wavelengths { grid })
+            Spectrum::<Response>::new(grid, unit).map_err(|_| CameraError::Wavelengths(grid))
         });
         let units = units.collect::<Result<Vec<_>, _>>()?;
         let method = Interpolation::best_for(grid);
@@ -482,7 +476,7 @@ impl CameraBands {
                 let weights = units.iter().map(|unit| unit.at(*nm, method, Extrapolation::Refuse));
                 let weights = weights
                     .collect::<Result<Vec<f64>, _>>()
-                    .map_err(|_| CameraError::Wavelengths { grid })?;
+                    .map_err(|_| CameraError::Wavelengths(grid))?;
                 let first = weights.iter().position(|weight| *weight != 0.0).unwrap_or(0);
                 let last = weights.iter().rposition(|weight| *weight != 0.0);
                 let end = last.map_or(first, |last| last + 1);

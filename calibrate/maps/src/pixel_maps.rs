@@ -361,15 +361,12 @@ pub enum MapError {
         second: String,
     },
     /// The ground is not a reflectance, or does not cover the bands of the scan.
-    #[error("the spectrum of the ground {problem}")]
+    #[error("the spectrum of the ground {0}")]
     #[hint(
         "give reflectances from 0 to 1 at rising wavelengths that cover the scan, or a region of bare ground in the scan, as the [ground]"
     )]
     #[fault(Setting)]
-    Ground {
-        /// The fault, as part of a sentence.
-        problem: String,
-    },
+    Ground(String),
     /// A setting is out of its range.
     #[error("{name} must be {range}, found `{value}`")]
     #[fault(Setting)]
@@ -400,12 +397,9 @@ pub enum MapError {
         pixels: usize,
     },
     /// We cannot map any pixel of the survey.
-    #[error("none of {pixels} surveyed pixels holds a reflectance that can be mapped")]
+    #[error("none of {0} surveyed pixels holds a reflectance that can be mapped")]
     #[hint("check that the scan holds reflectances from 0 to 1 rather than raw counts or percent")]
-    NothingToSurvey {
-        /// Number of pixels that were surveyed.
-        pixels: usize,
-    },
+    NothingToSurvey(usize),
     /// You made the book with another library, other wavelengths or other settings.
     #[error("the book of the survey was made for `{found}`, not for `{expected}`")]
     #[hint("survey the scan again with these settings")]
@@ -427,12 +421,9 @@ pub enum MapError {
         expected: String,
     },
     /// We cannot read the file of a book.
-    #[error("the book of a survey is not valid: {reason}")]
+    #[error("the book of a survey is not valid: {0}")]
     #[hint("survey the scan again: without this file, or with another one as the [survey]")]
-    Book {
-        /// Reason, in words.
-        reason: String,
-    },
+    Book(String),
     /// Someone ended the survey early.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

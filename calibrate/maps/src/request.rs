@@ -151,7 +151,7 @@ impl MapRequest {
             ground: self.ground.as_ref().map(|ground| ground.of(cube)).transpose()?,
         };
         if let (Err(reason), Some(path)) = (settings.model_error_of(library), &self.residuals) {
-            return Err(MapRequestError::Unsuitable { path: path.clone(), reason });
+            return Err(MapRequestError::Unsuitable(path.clone(), reason));
         }
         Ok(settings)
     }
@@ -427,15 +427,9 @@ pub enum MapRequestError {
     #[error(transparent)]
     Residuals(#[from] ResidualsError),
     /// The residuals do not suit the library.
-    #[error("{} cannot be used", path.display())]
-    #[hint(inner = reason)]
-    Unsuitable {
-        /// Path of the residuals.
-        path: PathBuf,
-        /// The fault of the residuals.
-        #[source]
-        reason: ResidualsError,
-    },
+    #[error("{} cannot be used", .0.display())]
+    #[hint(inner = 1)]
+    Unsuitable(PathBuf, #[source] ResidualsError),
     /// The request gives both residuals and a model error.
     #[error("residuals and model_error exclude each other")]
     #[hint("leave one of them out")]

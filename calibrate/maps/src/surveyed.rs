@@ -208,7 +208,7 @@ impl Region {
         let (pixels, mean) = cube.mean(region.rows.clone(), region.columns.clone())?;
         if pixels == 0 {
             let problem = "has no pixel that holds a reflectance".to_owned();
-            return Err(MapError::Ground { problem }.into());
+            return Err(MapError::Ground(problem).into());
         }
         Ok(Ground::new(cube.wavelengths_nm().to_vec(), mean)?)
     }
@@ -341,16 +341,16 @@ impl SurveyedScan {
     pub fn spot(&self, library: &PigmentLibrary, region: Region) -> Result<Spot, SpotError> {
         let (pixels, measured) = self.cube().mean(region.rows.clone(), region.columns.clone())?;
         if pixels == 0 {
-            return Err(SpotError::NothingMapped { region });
+            return Err(SpotError::NothingMapped(region));
         }
         let mean: Vec<f32> = measured.iter().map(|value| *value as f32).collect();
         let maps = self.map_pixels(&mean)?;
         if !maps.mask[0].is_compared() {
-            return Err(SpotError::NothingMapped { region });
+            return Err(SpotError::NothingMapped(region));
         }
         let columns = self.mapper().columns();
         let Some(set) = self.best_set(&mean)? else {
-            return Err(SpotError::NothingMapped { region });
+            return Err(SpotError::NothingMapped(region));
         };
         let mixture = library.mix(library.recipe(set)?)?;
         let told = columns.iter().enumerate().map(|(place, column)| SpotPigment {
@@ -389,14 +389,8 @@ pub enum SpotError {
     #[error(transparent)]
     Recipe(#[from] RecipeError),
     /// We cannot map any pixel of the region.
-    #[error(
-        "rows {}..{}, columns {}..{}: none of these pixels can be mapped",
-        region.rows.start, region.rows.end, region.columns.start, region.columns.end
-    )]
+    #[error("rows {}..{}, columns {}..{}: none of these pixels can be mapped", .0.rows.start, .0.rows.end, .0.columns.start, .0.columns.end)]
     #[hint("choose another [spot]")]
     #[fault(Setting)]
-    NothingMapped {
-        /// Region of the spot.
-        region: Region,
-    },
+    NothingMapped(Region),
 }

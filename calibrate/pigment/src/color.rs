@@ -121,7 +121,7 @@ impl PigmentLibrary {
             None => mixture.hiding(self.saunderson),
             Some(&FilmOver { thickness, ref ground }) => {
                 if !(thickness > 0.0 && thickness <= THICKEST) {
-                    return Err(ColorError::Thickness { thickness });
+                    return Err(ColorError::Thickness(thickness));
                 }
                 let (ground, warning) = ground.on_grid(self.grid)?;
                 remarks.extend(warning);
@@ -156,13 +156,10 @@ pub enum ColorError {
     #[fault(Input)]
     Recipe(#[from] RecipeError),
     /// The thickness of the film is impossible.
-    #[error("a film's thickness is above 0 and up to 1e9, found `{thickness}`")]
+    #[error("a film's thickness is above 0 and up to 1e9, found `{0}`")]
     #[hint("leave [thickness] out for a film that hides")]
     #[fault(Setting)]
-    Thickness {
-        /// Thickness that was given.
-        thickness: f64,
-    },
+    Thickness(f64),
     /// The ground cannot be used.
     #[error(transparent)]
     Backing(#[from] BackingError),
@@ -233,7 +230,7 @@ impl Backing {
         if (0.0..=1.0).contains(&reflectance) {
             return Ok(Self::Even(reflectance));
         }
-        Err(BackingError::Reflectance { text: reflectance.to_string() })
+        Err(BackingError::Reflectance(reflectance.to_string()))
     }
 
     /// Reflectance at each wavelength of `grid`. Where a measured spectrum is shorter, we hold its end
@@ -276,7 +273,7 @@ impl FromStr for Backing {
                 .parse()
                 .ok()
                 .and_then(|value| Self::even(value).ok())
-                .ok_or_else(|| BackingError::Reflectance { text: text.to_owned() }),
+                .ok_or_else(|| BackingError::Reflectance(text.to_owned())),
         }
     }
 }
@@ -285,13 +282,10 @@ impl FromStr for Backing {
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum BackingError {
     /// The reflectance is not a number from 0 to 1.
-    #[error("the ground's reflectance is 0 to 1, white or black, found `{text}`")]
+    #[error("the ground's reflectance is 0 to 1, white or black, found `{0}`")]
     #[hint("try [over=0.85] or [over=paper.csv#SAMPLE]")]
     #[fault(Setting)]
-    Reflectance {
-        /// Text or number that was given.
-        text: String,
-    },
+    Reflectance(String),
     /// The spectrum has no wavelength in common with the library.
     #[error("the ground is measured from {start_nm} to {end_nm} nm only")]
     #[hint("the library has the wavelengths {wanted}")]

@@ -196,11 +196,11 @@ impl PigmentLibrary {
     ) -> Result<Vec<(PigmentId, f64)>, RecipeError> {
         let parts = recipe.as_ref();
         if let Some((_, part)) = parts.iter().find(|(_, part)| !PARTS.contains(part)) {
-            return Err(RecipeError::Parts { parts: *part });
+            return Err(RecipeError::Parts(*part));
         }
         let total: f64 = parts.iter().map(|(_, part)| part).sum();
         if total < LEAST_TOTAL {
-            return Err(RecipeError::Parts { parts: total });
+            return Err(RecipeError::Parts(total));
         }
         let scale = if self.amounts == AmountKind::Relative { 1.0 / total } else { 1.0 };
         Ok(parts.iter().map(|&(id, part)| (id, part * scale)).collect())
@@ -691,11 +691,8 @@ pub enum RecipeError {
         second: String,
     },
     /// A part, or the sum of all parts, is out of range.
-    #[error("parts are 0 to 1e12 and sum to 1e-12 or more, found `{parts}`")]
-    Parts {
-        /// The part or sum out of range.
-        parts: f64,
-    },
+    #[error("parts are 0 to 1e12 and sum to 1e-12 or more, found `{0}`")]
+    Parts(f64),
 }
 
 #[cfg(test)]

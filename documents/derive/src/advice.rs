@@ -5,7 +5,7 @@ use quote::{format_ident, quote, quote_spanned};
 use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
-use syn::{Attribute, Error, Expr, Ident, LitStr, Result, Token};
+use syn::{Attribute, Error, Expr, Ident, LitStr, Member, Result, Token};
 
 mod word {
     syn::custom_keyword!(verbatim);
@@ -68,7 +68,7 @@ pub(crate) enum HintSource {
 
 pub(crate) struct Inner {
     pub(crate) span: Span,
-    pub(crate) field: Option<Ident>,
+    pub(crate) field: Option<Member>,
 }
 
 impl Inner {

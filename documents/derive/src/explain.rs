@@ -157,8 +157,8 @@ impl<'a> Variant<'a> {
             self.fields.iter().position(|field| field.ident.as_ref().is_some_and(wanted))
         };
         if let Some(field) = &inner.field {
-            return named(&|name| name == field)
-                .ok_or_else(|| Error::new(field.span(), "there is no such field"));
+            let found = self.fields.members().position(|member| member == *field);
+            return found.ok_or_else(|| Error::new(field.span(), "there is no such field"));
         }
         let marked = self.fields.iter().position(|field| {
             let mut attributes = field.attrs.iter();

@@ -169,7 +169,7 @@ impl OutputFolder {
         // The file that the check names is not one of the user's.
         if let Err(error) = check_writable(&there.join(".impasto")) {
             let reason = io::Error::from(error.reason.kind());
-            return Err(OutputError::Folder { words, reason });
+            return Err(OutputError::Folder(words, reason));
         }
         Ok(Self { folder: folder.to_owned(), inputs: inputs.to_vec() })
     }
@@ -233,7 +233,7 @@ impl OutputFolder {
 /// [`OutputError::Folder`] if it cannot be made.
 pub fn create_folder(folder: &Path) -> Result<(), OutputError> {
     std::fs::create_dir_all(folder)
-        .map_err(|reason| OutputError::Folder { words: cannot_be_created(folder), reason })
+        .map_err(|reason| OutputError::Folder(cannot_be_created(folder), reason))
 }
 
 fn cannot_be_created(folder: &Path) -> String {
@@ -275,16 +275,10 @@ pub enum OutputError {
         file: PathBuf,
     },
     /// A folder cannot be made, or nothing can be written into it.
-    #[error("{words}")]
-    #[hint(inner = reason)]
+    #[error("{0}")]
+    #[hint(inner = 1)]
     #[fault(Environment)]
-    Folder {
-        /// The folder, and what cannot be done.
-        words: String,
-        /// The error of the operating system.
-        #[source]
-        reason: io::Error,
-    },
+    Folder(String, #[source] io::Error),
     /// The file cannot be written.
     #[error(transparent)]
     File(#[from] FileError),

@@ -49,7 +49,7 @@ impl Photograph {
         let name = path.display().to_string();
         let bytes = read(path).map_err(|error| {
             let error = std::io::Error::new(error.reason.kind(), error.reason.to_string());
-            PhotographError::Unreadable { name: name.clone(), error }
+            PhotographError::Unreadable(name.clone(), error)
         })?;
         Self::from_bytes(&name, &bytes)
     }
@@ -263,15 +263,10 @@ fn sample_bytes(color: ColorType) -> usize {
 #[derive(Debug, thiserror::Error, Explain)]
 pub enum PhotographError {
     /// The file cannot be opened or read.
-    #[error("{name}: {error}")]
+    #[error("{0}: {1}")]
     #[hint("check the path")]
     #[fault(Environment)]
-    Unreadable {
-        /// Path of the file.
-        name: String,
-        /// Reason given by the system.
-        error: std::io::Error,
-    },
+    Unreadable(String, std::io::Error),
     /// The file is not a PNG, JPEG, TIFF or WebP picture, or it is damaged.
     #[error("{name}: not a {NAMES} picture that can be read: {reason}")]
     #[hint("save it as {NAMES}")]

@@ -265,13 +265,13 @@ fn default_cell_mm() -> f64 {
 /// [`PaletteError`] for more than eight names, an unknown name, and a pigment named twice.
 pub fn palette_slots(names: &[String], library: &PigmentLibrary) -> Result<Slots, PaletteError> {
     if names.len() > SLOTS {
-        return Err(PaletteError::TooMany { count: names.len() });
+        return Err(PaletteError::TooMany(names.len()));
     }
     let mut slots = Slots::default();
     for (slot, name) in names.iter().enumerate() {
         let pigment = library.find(name)?;
         if slots.contains(&Some(pigment)) {
-            return Err(PaletteError::Repeated { name: name.clone() });
+            return Err(PaletteError::Repeated(name.clone()));
         }
         slots[slot] = Some(pigment);
     }
@@ -283,19 +283,13 @@ pub fn palette_slots(names: &[String], library: &PigmentLibrary) -> Result<Slots
 #[fault(Setting)]
 pub enum PaletteError {
     /// There are more pigments than slots.
-    #[error("a palette has at most {SLOTS} pigments, found `{count}`")]
+    #[error("a palette has at most {SLOTS} pigments, found `{0}`")]
     #[hint("leave [palette] out to have the best eight chosen")]
-    TooMany {
-        /// Number of names.
-        count: usize,
-    },
+    TooMany(usize),
     /// Two names mean the same pigment.
-    #[error("a palette takes each pigment once, found `{name}` again")]
+    #[error("a palette takes each pigment once, found `{0}` again")]
     #[hint("leave the second out")]
-    Repeated {
-        /// The second name, as it was given.
-        name: String,
-    },
+    Repeated(String),
     /// The library has none or several pigments of this name.
     #[error(transparent)]
     Pigment(#[from] RecipeError),

@@ -84,12 +84,9 @@ pub enum StrokeError {
     #[hint("give at least one sample")]
     Empty,
     /// The width of a cell is not above 0.
-    #[error("cells have a width above 0 mm: `{cell_mm}` mm")]
+    #[error("cells have a width above 0 mm: `{0}` mm")]
     #[hint("give the width of a cell in mm, such as 0.1")]
-    Cell {
-        /// Width of a cell in mm.
-        cell_mm: f64,
-    },
+    Cell(f64),
     /// A number is infinite or NaN.
     #[error("sample {sample}: {field} is not a number: `{found}`")]
     #[hint("leave the sample out")]
@@ -130,12 +127,9 @@ pub enum StrokeError {
         before: f64,
     },
     /// The stroke needs more than [`MOST_SUBSTEPS`] sub-steps.
-    #[error("the stroke takes up to {substeps:.0} sub-steps, at most {MOST_SUBSTEPS} are allowed")]
+    #[error("the stroke takes up to {0:.0} sub-steps, at most {MOST_SUBSTEPS} are allowed")]
     #[hint("places are in mm; cut the stroke in pieces")]
-    TooLong {
-        /// Upper bound of the sub-steps that the stroke would take.
-        substeps: f64,
-    },
+    TooLong(f64),
     /// A sample came after the brush was lifted.
     #[error("the brush was lifted, so the stroke takes no more samples")]
     #[hint("begin another stroke")]
@@ -320,7 +314,7 @@ impl Path {
     /// [`StrokeError::Cell`] if `cell_mm` is not a finite number above 0.
     pub fn new(cell_mm: f64, size_mm: f64) -> Result<Self, StrokeError> {
         if !(cell_mm.is_finite() && cell_mm > 0.0) {
-            return Err(StrokeError::Cell { cell_mm });
+            return Err(StrokeError::Cell(cell_mm));
         }
         Ok(Self {
             cell_mm,
@@ -358,7 +352,7 @@ impl Path {
         let guessed = to.map(|to| Piece::new((from, to), (pose, None), self.reach));
         let substeps = self.length + piece_size(&known) + piece_size(&guessed);
         if substeps > MOST_SUBSTEPS as f64 {
-            return Err(StrokeError::TooLong { substeps });
+            return Err(StrokeError::TooLong(substeps));
         }
         self.first = if self.samples == 0 { Some(pose) } else { self.first };
         self.samples += 1;
@@ -668,7 +662,7 @@ mod tests {
             Sample { x_mm: 1.1e6, ..good[2] },
         ] {
             let error = path.push(&bad).unwrap_err();
-            let place = matches!(error, StrokeError::TooLong { .. })
+            let place = matches!(error, StrokeError::TooLong(..))
                 || error.to_string().starts_with("sample 2: ");
             assert!(place, "{error}");
         }
@@ -767,10 +761,10 @@ mod tests {
         }
         for x_mm in [1.1e6, -9e7] {
             let error = refused_second(Sample { x_mm, ..SAMPLE });
-            assert!(matches!(error, StrokeError::TooLong { .. }), "{error}");
+            assert!(matches!(error, StrokeError::TooLong(..)), "{error}");
         }
         assert!(matches!(substeps(&[], 0.1, SIZE_MM).err(), Some(StrokeError::Empty)));
-        assert!(matches!(substeps(&[SAMPLE], 0.0, SIZE_MM).err(), Some(StrokeError::Cell { .. })));
+        assert!(matches!(substeps(&[SAMPLE], 0.0, SIZE_MM).err(), Some(StrokeError::Cell(..))));
     }
 
     fn refused_second(second: Sample) -> StrokeError {

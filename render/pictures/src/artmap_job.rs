@@ -213,7 +213,7 @@ impl MarksRequest {
         let mut marks = propose_marks(&source.color, self.count, &self.settings())?;
         task.check()?;
         let without_spacing = match samples_of_picture(&source, &marks, &self.settings()) {
-            Err(PassageError::NoSpacing { samples }) => samples,
+            Err(PassageError::NoSpacing(samples)) => samples,
             _ => Vec::new(),
         };
         task.check()?;

@@ -248,28 +248,16 @@ pub enum PictureError {
     #[error(transparent)]
     Performance(Box<PerformanceError>),
     /// The subject cannot hold paint volumes.
-    #[error("{subject}: paint cannot be poured over it")]
-    #[hint(inner)]
-    Scene {
-        /// Path of the subject, or the name of its shape.
-        subject: String,
-        /// Reason.
-        #[source]
-        error: Box<PerformanceError>,
-    },
+    #[error("{0}: paint cannot be poured over it")]
+    #[hint(inner = 1)]
+    Scene(String, #[source] Box<PerformanceError>),
     /// A scene with paint volumes cannot be painted.
     #[error(transparent)]
     Volumes(#[from] volumes::painter::PaintingError),
     /// An old snapshot beside the frames of an animation cannot be removed.
-    #[error("{file}: this snapshot cannot be removed")]
-    #[hint(inner)]
-    Snapshot {
-        /// Path of the snapshot.
-        file: String,
-        /// Reason.
-        #[source]
-        error: io::Error,
-    },
+    #[error("{0}: this snapshot cannot be removed")]
+    #[hint(inner = 1)]
+    Snapshot(String, #[source] io::Error),
     /// Layers for compositing cannot be made.
     #[error(transparent)]
     Compositing(#[from] CompositingError),
@@ -345,22 +333,16 @@ pub enum PictureError {
     #[error(transparent)]
     Timelapse(Box<TimelapseError>),
     /// A part of the work fails, for example an action of a script.
-    #[error("{part}")]
-    #[hint(inner = error)]
-    #[fault(inner = error)]
-    Within {
-        /// Name of the part.
-        part: String,
-        /// Why it fails.
-        #[source]
-        error: Box<PictureError>,
-    },
+    #[error("{0}")]
+    #[hint(inner = 1)]
+    #[fault(inner = 1)]
+    Within(String, #[source] Box<PictureError>),
 }
 
 impl PictureError {
     /// The error of the part of the work that has this name.
     pub(crate) fn within(self, part: impl Into<String>) -> Self {
-        Self::Within { part: part.into(), error: Box::new(self) }
+        Self::Within(part.into(), Box::new(self))
     }
 
     /// The error for a path of the camera without a frame.

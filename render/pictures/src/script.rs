@@ -450,7 +450,7 @@ fn of_replay(error: ReplayError<PictureError>) -> PictureError {
         ReplayError::Action { index, kind, error } => {
             PictureError::from(*error).within(format!("action {index} ({kind})"))
         }
-        ReplayError::Save { index, error } => error.within(format!("action {index} (save)")),
+        ReplayError::Save(index, error) => error.within(format!("action {index} (save)")),
     }
 }
 
@@ -618,7 +618,7 @@ mod tests {
         let none = written(folder.path(), &SCRIPT.replace("saved/a.png", "one-stroke.json"));
         let error = none.run(&Task::default()).unwrap_err();
         assert!(error.to_string().ends_with("one-stroke.json"), "{error}");
-        assert!(matches!(error, PictureError::Within { .. }), "{error:?}");
+        assert!(matches!(error, PictureError::Within(..)), "{error:?}");
         let names = std::fs::read_dir(folder.path()).unwrap();
         assert_eq!(names.count(), 1, "only the script is there");
     }

@@ -44,14 +44,14 @@ impl Whiteness {
         observer: Observer,
     ) -> Result<Self, WhitenessError> {
         if !["D65", "C"].contains(&light.name()) {
-            return Err(WhitenessError::Light { name: light.name().to_owned() });
+            return Err(WhitenessError::Light(light.name().to_owned()));
         }
         // The tint of the 10 degree observer has a smaller coefficient of x.
         let of_x = match observer {
             Observer::Cie1931Deg2 => 1000.0,
             Observer::Cie1964Deg10 => 900.0,
             Observer::Cie2015Deg2 | Observer::Cie2015Deg10 => {
-                return Err(WhitenessError::Observer { observer });
+                return Err(WhitenessError::Observer(observer));
             }
         };
         let own = xyz.to_xyy(white);
@@ -65,7 +65,7 @@ impl Whiteness {
             return Err(WhitenessError::NotWhite { whiteness, most });
         }
         if !(tint > TINTS[0] && tint < TINTS[1]) {
-            return Err(WhitenessError::Tinted { tint });
+            return Err(WhitenessError::Tinted(tint));
         }
         Ok(Self { whiteness, tint })
     }
@@ -75,21 +75,15 @@ impl Whiteness {
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum WhitenessError {
     /// The CIE made the formula for daylight only.
-    #[error("whiteness is defined under D65 and C, not under {name}")]
+    #[error("whiteness is defined under D65 and C, not under {0}")]
     #[hint("choose [illuminant=D65]")]
     #[fault(Setting)]
-    Light {
-        /// Name of the light.
-        name: String,
-    },
+    Light(String),
     /// The CIE made the formula for the observers of 1931 and 1964 only.
-    #[error("whiteness is defined for the observers 1931-2 and 1964-10, not for {observer}")]
+    #[error("whiteness is defined for the observers 1931-2 and 1964-10, not for {0}")]
     #[hint("choose [observer=10]")]
     #[fault(Setting)]
-    Observer {
-        /// Observer that was asked for.
-        observer: Observer,
-    },
+    Observer(Observer),
     /// The colour is too dark, too yellow or too blue.
     #[error(
         "not white: W {whiteness:.1} is not between {LEAST_WHITENESS} and 5 Y - 280 = {most:.1}"
@@ -101,11 +95,8 @@ pub enum WhitenessError {
         most: f64,
     },
     /// The colour is greenish or reddish.
-    #[error("not white: T {tint:.1} is not between {} and {}", TINTS[0], TINTS[1])]
-    Tinted {
-        /// Result of the formula.
-        tint: f64,
-    },
+    #[error("not white: T {tint:.1} is not between {} and {}", TINTS[0], TINTS[1], tint = .0)]
+    Tinted(f64),
 }
 
 #[cfg(test)]

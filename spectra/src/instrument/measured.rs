@@ -151,11 +151,11 @@ impl MeasuredSpectrum {
         let scale = if self.is_percent() { 0.01 } else { 1.0 };
         let values = self.values.iter().map(|value| value * scale).collect();
         let irregular = IrregularSpectrum::new(self.wavelengths_nm.clone(), values)
-            .map_err(|reason| ReflectanceError::Wavelengths { name: self.name.clone(), reason })?;
+            .map_err(|reason| ReflectanceError::Wavelengths(self.name.clone(), reason))?;
         let grid = Grid::suited_to(&self.wavelengths_nm)
             .expect("an irregular spectrum has rising wavelengths");
         Spectrum::new(grid, irregular.on_grid(grid))
-            .map_err(|reason| ReflectanceError::Values { name: self.name.clone(), reason })
+            .map_err(|reason| ReflectanceError::Values(self.name.clone(), reason))
     }
 }
 
@@ -177,23 +177,11 @@ pub enum ReflectanceError {
         found: MeasuredQuantity,
     },
     /// A value is outside 0 to 2.
-    #[error("`{name}` has a value that is not a reflectance")]
-    Values {
-        /// Name of the spectrum.
-        name: String,
-        /// The wavelength and its value.
-        #[source]
-        reason: SpectrumError,
-    },
+    #[error("`{0}` has a value that is not a reflectance")]
+    Values(String, #[source] SpectrumError),
     /// The wavelengths do not rise, or there is not one for each value.
-    #[error("`{name}` is not a spectrum")]
-    Wavelengths {
-        /// Name of the spectrum.
-        name: String,
-        /// The fault of the wavelengths.
-        #[source]
-        reason: IrregularSpectrumError,
-    },
+    #[error("`{0}` is not a spectrum")]
+    Wavelengths(String, #[source] IrregularSpectrumError),
 }
 
 /// Makes a name for a spectrum without one: the file name without folder and extension.
@@ -281,12 +269,9 @@ pub enum ChoiceError {
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum InstrumentError {
     /// The content matches none of the formats in `Format`.
-    #[error("{file}: no known format of an instrument")]
+    #[error("{0}: no known format of an instrument")]
     #[hint("name the format with [format], or save as CSV: a column `sample`, then wavelengths")]
-    Unrecognised {
-        /// Path of the file.
-        file: String,
-    },
+    Unrecognised(String),
     /// We know the format of the file but do not read it.
     #[error("{file}: this is {kind}, which is not read")]
     #[hint("{way}")]

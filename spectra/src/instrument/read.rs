@@ -32,7 +32,7 @@ pub fn read(
     let stated = format.filter(|format| *format != Format::Workbook);
     let found = stated
         .or_else(|| Format::detect(&text.file, &text.text))
-        .ok_or_else(|| InstrumentError::Unrecognised { file: text.file.clone() })?;
+        .ok_or_else(|| InstrumentError::Unrecognised(text.file.clone()))?;
     let file = text.file.as_str();
     let spectra = match found {
         Format::Cgats => cgats::read(file, &text.text),

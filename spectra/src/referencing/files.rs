@@ -105,7 +105,7 @@ impl ReferenceFiles {
         let tile = match &self.tile {
             TileSource::Fraction(value) => Tile::even(*value)?,
             TileSource::File(file) => Tile::measured(&spectrum(file)?)
-                .map_err(|reason| ReferenceFilesError::Tile { file: file.clone(), reason })?,
+                .map_err(|reason| ReferenceFilesError::Tile(file.clone(), reason))?,
         };
         let full_scale = self.full_scale;
         let least_light = self.least_light;
@@ -121,15 +121,9 @@ pub enum ReferenceFilesError {
     #[error(transparent)]
     Open(#[from] OpenError),
     /// The file does not hold the reflectance of a tile.
-    #[error("{file}: cannot be used as the reflectance of the white tile")]
-    #[hint(inner = reason)]
-    Tile {
-        /// The tile's `FILE` or `FILE#NAME`.
-        file: String,
-        /// Why the spectrum cannot be used.
-        #[source]
-        reason: ReferencingError,
-    },
+    #[error("{0}: cannot be used as the reflectance of the white tile")]
+    #[hint(inner = 1)]
+    Tile(String, #[source] ReferencingError),
     /// The constant reflectance of the tile is out of its range.
     #[error(transparent)]
     Constant(#[from] ReferencingError),

@@ -288,7 +288,7 @@ fn sound_band(
     let first = all.partition_point(|nm| nm < VISIBLE_NM.start());
     let end = all.partition_point(|nm| nm <= VISIBLE_NM.end());
     if first == end {
-        return Err(ReferencingError::Invisible { name: sample.name.clone() });
+        return Err(ReferencingError::Invisible(sample.name.clone()));
     }
     let visible = all[first..end].iter().map(|&nm| at(nm));
     let mut reflectance = visible.collect::<Result<Vec<f64>, _>>()?;
@@ -395,7 +395,7 @@ impl Tile {
         if value > 0.0 && value <= 1.2 {
             Ok(Self::Even(value))
         } else {
-            Err(ReferencingError::Tile { value })
+            Err(ReferencingError::Tile(value))
         }
     }
 
@@ -638,18 +638,12 @@ pub enum ReferencingError {
         reflectance: f64,
     },
     /// The sample has no visible wavelength.
-    #[error("the sample `{name}` has no wavelength from 380 to 730 nm")]
-    Invisible {
-        /// Name of the sample.
-        name: String,
-    },
+    #[error("the sample `{0}` has no wavelength from 380 to 730 nm")]
+    Invisible(String),
     /// The white's own reflectance is out of range.
-    #[error("the tile's reflectance must be above 0 and at most 1.2, found `{value}`")]
+    #[error("the tile's reflectance must be above 0 and at most 1.2, found `{0}`")]
     #[hint("give a fraction, such as [tile=0.99], or a file of its reflectance")]
-    Tile {
-        /// Reflectance of the tile, as a fraction.
-        value: f64,
-    },
+    Tile(f64),
 }
 
 #[cfg(test)]

@@ -281,7 +281,7 @@ fn nodes_rise_within_the_band() {
 fn none_or_too_many_wavelengths_are_refused() {
     for count in [0, 33] {
         let refused = Quadrature::gauss(&Viewing::default(), count).unwrap_err();
-        assert_eq!(refused, QuadratureFailure::Count { count });
+        assert_eq!(refused, QuadratureFailure::Count(count));
     }
 }
 

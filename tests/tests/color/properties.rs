@@ -226,7 +226,7 @@ fn a_grid_refuses_bad_numbers() {
     }
     for step in [0.0, -10.0, f64::NAN, f64::INFINITY] {
         let refused = Grid::from_nm(400.0, step, 3);
-        assert!(matches!(refused, Err(GridError::Step { .. })), "step {step}: {refused:?}");
+        assert!(matches!(refused, Err(GridError::Step(..))), "step {step}: {refused:?}");
     }
     assert_eq!(Grid::from_nm(400.0, 10.0, 0), Err(GridError::Empty), "no wavelength");
     let file = r#"{"start_nm": 400, "step_nm": -1, "count": 3}"#;
@@ -289,7 +289,7 @@ fn sprague_is_refused_below_six_wavelengths() {
     let five = Grid::from_nm(400.0, 10.0, 5).unwrap();
     let spectrum = Spectrum::<Power>::new(five, vec![1.0; 5]).unwrap();
     let refused = spectrum.at(420.0, Interpolation::Sprague, Extrapolation::Refuse);
-    assert_eq!(refused, Err(InterpolateError::TooFew { count: 5 }), "five");
+    assert_eq!(refused, Err(InterpolateError::TooFew(5)), "five");
     assert_eq!(Interpolation::best_for(five), Interpolation::Linear, "five");
     assert_eq!(Interpolation::best_for(grid()), Interpolation::Sprague, "six");
 }

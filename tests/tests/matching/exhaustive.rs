@@ -376,7 +376,7 @@ fn what_no_recipe_can_meet_is_refused() {
     assert_eq!(refusal(&|r| (r.required, r.at_most) = (two(None, None), 1)), too_many);
     for second in [(Some(0.7), Some(0.7)), (Some(1.0), None)] {
         let error = refusal(&|r| r.required = two(second.0, second.1));
-        assert!(matches!(error, MatchError::Shares { .. }), "{error}");
+        assert!(matches!(error, MatchError::Shares(..)), "{error}");
     }
     assert_eq!(
         refusal(&|r| (r.required, r.whole_parts) =

@@ -314,5 +314,5 @@ fn a_batch_is_corrected_by_its_spectrum() {
     assert!(options.run(library, &target, &same, &Task::default()).unwrap().is_near);
     let color = "#4a7d8c".parse().unwrap();
     let refused = options.run(library, &color, &batch, &Task::default()).unwrap_err();
-    assert!(matches!(refused, MatchError::NoSpectrum { .. }), "{refused}");
+    assert!(matches!(refused, MatchError::NoSpectrum(..)), "{refused}");
 }

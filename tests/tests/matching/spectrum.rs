@@ -152,7 +152,7 @@ fn a_colour_and_a_foreign_band_are_refused_with_a_way_out() {
     let options = by_spectrum(SpectrumWeights::Even);
     for text in ["#4a7d8c", "52,-10.5,8"] {
         let refused = options.run(&library, &text.parse().unwrap(), &Task::default()).unwrap_err();
-        assert!(matches!(refused, MatchError::NoSpectrum { .. }), "{refused}");
+        assert!(matches!(refused, MatchError::NoSpectrum(..)), "{refused}");
         assert!(refused.hint().unwrap().to_string().contains("match by colour"), "{refused}");
     }
     // Blue light only, where this copy of the library does not reach.

@@ -126,7 +126,7 @@ fn pigments_that_are_wet_anywhere_stay_on_both_palettes() {
     for mut session in sessions() {
         let without_red = Action::Palette(PaletteSpec::from_names(PALETTE[..3].iter().copied()));
         let refused = |session: &mut PaintingSession| match session.apply(&without_red) {
-            Err(PaintingError::StillWet { pigment }) => Some(pigment),
+            Err(PaintingError::StillWet(pigment)) => Some(pigment),
             _ => None,
         };
         let red = "Vermilion";
@@ -150,7 +150,7 @@ fn pigments_that_are_wet_anywhere_stay_on_both_palettes() {
         assert!(!palette.contains(&Some(pigment(red))));
         assert!(matches!(
             session.apply(&squeeze(SurfaceId::Palette, red, (9.0, 7.0))),
-            Err(PaintingError::OffPalette { .. })
+            Err(PaintingError::OffPalette(..))
         ));
     }
 }
@@ -245,7 +245,7 @@ fn a_slider_is_one_action_and_another_one_is_another() {
         assert!(whole(&mut session) == after);
         assert!(matches!(
             session.adjust(&Action::Dry { fraction: 0.5 }),
-            Err(PaintingError::NoControl { kind: "dry" })
+            Err(PaintingError::NoControl("dry"))
         ));
         session.end_adjustment();
         assert_eq!(session.history().0, labels, "nothing was adjusted");

@@ -55,7 +55,7 @@ fn pigments_that_cannot_be_mixed_are_left_out_and_guessed_ones_marked() {
     );
     five.pigments.iter_mut().for_each(|pigment| pigment.identified = false);
     let refused = Palette::new(&five, &viewing, Cards::standard(grid())).unwrap_err();
-    assert_eq!(refused, PaletteError::NothingToMix { pigments: 5 });
+    assert_eq!(refused, PaletteError::NothingToMix(5));
     assert!(refused.hint().unwrap().to_string().contains("mixtures"));
 }
 

@@ -175,7 +175,7 @@ fn settings_out_of_range_are_refused() {
     let refused = |settings| Separation::new(STUDIO.film(), &settings).unwrap_err();
     for lattice in [0, 4, 66] {
         let found = refused(SeparationSettings { lattice, ..good });
-        assert_eq!(found, SeparationError::Lattice { lattice });
+        assert_eq!(found, SeparationError::Lattice(lattice));
     }
     for (least_mm, most_mm) in [(0.0, 0.3), (0.3, 0.1), (0.1, 1e9), (0.1, f64::NAN)] {
         let found = refused(SeparationSettings { least_mm, most_mm, ..good });

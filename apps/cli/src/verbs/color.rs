@@ -422,7 +422,7 @@ fn whiteness_cells(
 ) -> String {
     let (cells, note) = match found {
         Ok(found) => return decimals(&[found.whiteness, found.tint], 2),
-        Err(WhitenessError::NotWhite { .. } | WhitenessError::Tinted { .. }) => {
+        Err(WhitenessError::NotWhite { .. } | WhitenessError::Tinted(..)) => {
             ("not white".to_owned(), NOT_WHITE.to_owned())
         }
         Err(other) => (format!("{:>7} {:>7}", "-", "-"), other.to_string()),

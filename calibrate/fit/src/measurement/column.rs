@@ -87,10 +87,8 @@ pub(super) fn columns(
             _ => column(name, letters),
         };
         columns.push(
-            match (
-                column.ok_or_else(|| MeasurementError::WavelengthRange { place: place(index) })?,
-                pigments,
-            ) {
+            match (column.ok_or_else(|| MeasurementError::WavelengthRange(place(index)))?, pigments)
+            {
                 (Column::Pigment(_) | Column::Ignored, Some(names))
                     if names.iter().any(|pigment| pigment == name) =>
                 {

@@ -226,7 +226,7 @@ impl LargeCsv {
             }
             Ok(())
         })?;
-        let empty = MeasurementError::Empty { file: self.file.clone() };
+        let empty = MeasurementError::Empty(self.file.clone());
         whole.ok_or(LargeCsvError::Measurement(empty))
     }
 

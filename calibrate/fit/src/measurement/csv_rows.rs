@@ -115,7 +115,7 @@ impl CsvRows {
             return Err(MeasurementError::NoTable { file: file.to_owned(), found: "JSON" });
         }
         if text.trim().is_empty() {
-            return Err(MeasurementError::Empty { file: file.to_owned() });
+            return Err(MeasurementError::Empty(file.to_owned()));
         }
         let RawRows { separator, heading_row, headings: headers, rows, heading_rows } =
             RawRows::of(text, kind);
@@ -127,7 +127,7 @@ impl CsvRows {
         };
         let mut columns = columns(&place, &headers, kind, pigments)?;
         if rows.is_empty() {
-            return Err(MeasurementError::Empty { file: file.to_owned() });
+            return Err(MeasurementError::Empty(file.to_owned()));
         }
         take_filled_names(&headers, &mut columns, &rows);
         let decimal_comma = has_decimal_commas(separator, &columns, &rows);

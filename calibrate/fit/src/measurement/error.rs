@@ -24,11 +24,8 @@ pub enum MeasurementError {
     #[error(transparent)]
     Instrument(InstrumentError),
     /// The file holds no readings.
-    #[error("{file}: the file holds no readings")]
-    Empty {
-        /// File name as the caller gave it.
-        file: String,
-    },
+    #[error("{0}: the file holds no readings")]
+    Empty(String),
     /// A column has no header.
     #[error("{file}, row {row}: column number {number} has no header")]
     UnnamedColumn {
@@ -71,12 +68,9 @@ pub enum MeasurementError {
         nm: f64,
     },
     /// A header is a number outside the wavelengths at which paint is measured.
-    #[error("{place} is not a wavelength from 200 to 2500 nm")]
+    #[error("{0} is not a wavelength from 200 to 2500 nm")]
     #[hint("a pigment's name must not be a number")]
-    WavelengthRange {
-        /// File, row and column.
-        place: CellPlace,
-    },
+    WavelengthRange(CellPlace),
     /// A reading is negative or far above white.
     #[error("{place}: expected a reflectance {range}, found `{value}`")]
     #[hint(
@@ -187,12 +181,9 @@ pub enum MeasurementError {
         least: f64,
     },
     /// No file has a column with the name of a pigment that was asked for.
-    #[error("no file has a column of the pigment `{name}`")]
+    #[error("no file has a column of the pigment `{0}`")]
     #[hint("[pigments=NAME] takes the heading of a column, once for each pigment")]
-    NoPigmentColumn {
-        /// Name that was asked for.
-        name: String,
-    },
+    NoPigmentColumn(String),
     /// Most readings of films are below what a paint's surface reflects by itself.
     #[error(
         "{file}, row {row}: beginning with sample {sample}, {below} of {count} readings of paint are below k1 = {k1}: the surface alone would reflect more"

@@ -55,11 +55,11 @@ impl Recipes {
             .position(|column: &Column| matches!(column, Column::Wavelength(_)))
         {
             let place = table_rows.header_place(index);
-            return Err(RecipesError::Wavelength { place });
+            return Err(RecipesError::Wavelength(place));
         }
         let pigments = table_rows.pigments();
         if pigments.is_empty() {
-            return Err(RecipesError::NoPigments { file: file.to_owned() });
+            return Err(RecipesError::NoPigments(file.to_owned()));
         }
         let reading = position(Column::Reading);
         let mut rows: Vec<(String, Reading)> = Vec::new();
@@ -183,21 +183,15 @@ pub enum RecipesError {
     #[error(transparent)]
     Table(#[from] MeasurementError),
     /// A column is a wavelength.
-    #[error("{place} is a wavelength; recipes hold no readings")]
+    #[error("{0} is a wavelength; recipes hold no readings")]
     #[hint("a file that holds both is a measurement file; leave out [recipes]")]
-    Wavelength {
-        /// File, row and column.
-        place: CellPlace,
-    },
+    Wavelength(CellPlace),
     /// No column is a pigment.
-    #[error("{file}, row 1: no column is a pigment")]
+    #[error("{0}, row 1: no column is a pigment")]
     #[hint(
         "columns of recipes: sample, then optionally reading, film, backing, thickness_mm, then one per pigment"
     )]
-    NoPigments {
-        /// File name as the caller gave it.
-        file: String,
-    },
+    NoPigments(String),
     /// Two rows name the same reading.
     #[error("{file}, row {second}: a recipe of `{name}` stands in row {first} already")]
     #[hint(

@@ -125,7 +125,7 @@ fn reflectances<'a>(
         });
     if kept.is_empty() {
         let Some(record) = others.first() else {
-            return Err(MeasurementError::Empty { file: file.to_owned() });
+            return Err(MeasurementError::Empty(file.to_owned()));
         };
         return Err(MeasurementError::NoReflectance {
             file: file.to_owned(),

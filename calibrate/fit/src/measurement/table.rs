@@ -76,8 +76,7 @@ impl MeasurementTable {
     /// table.
     pub fn joined(tables: Vec<Self>) -> Result<Self, MeasurementError> {
         let mut tables = tables.into_iter();
-        let mut all =
-            tables.next().ok_or_else(|| MeasurementError::Empty { file: "no file".to_owned() })?;
+        let mut all = tables.next().ok_or_else(|| MeasurementError::Empty("no file".to_owned()))?;
         for mut table in tables {
             if table.grid != all.grid {
                 return Err(MeasurementError::Grid {

@@ -220,7 +220,7 @@ fn check_identified(paints: &PaintSet, recipes: &[SwatchRecipe]) -> Result<(), P
         return Ok(());
     }
     let names = unknown.iter().map(|u| paints.name(u.pigment).to_owned());
-    Err(PlanError::Unidentified { paints: names.collect() })
+    Err(PlanError::Unidentified(names.collect()))
 }
 
 /// Mass of a swatch, and the balance with which you weigh it.

@@ -32,10 +32,10 @@ impl PaintSet {
         names.extend(black.map(str::to_owned));
         for (index, name) in names.iter().enumerate() {
             if !names_a_pigment(name) {
-                return Err(PlanError::Name { name: name.clone() });
+                return Err(PlanError::Name(name.clone()));
             }
             if names[..index].contains(name) {
-                return Err(PlanError::Twice { name: name.clone() });
+                return Err(PlanError::Twice(name.clone()));
             }
         }
         if names.len() < 2 {
@@ -220,21 +220,15 @@ impl MeasurementForm {
 #[fault(Setting)]
 pub enum PlanError {
     /// A name cannot head a pigment's column of a measurement file.
-    #[error("in a measurement file this heading would not be read as a pigment: `{name}`")]
+    #[error("in a measurement file this heading would not be read as a pigment: `{0}`")]
     #[hint(
         "use a word that is none of the file's own columns (sample, film, backing, thickness_mm, replicate) and no number"
     )]
-    Name {
-        /// Name of the paint.
-        name: String,
-    },
+    Name(String),
     /// Two paints have one name.
-    #[error("each paint is named once, found twice `{name}`")]
+    #[error("each paint is named once, found twice `{0}`")]
     #[hint("remove one, or give the second paint another name")]
-    Twice {
-        /// Name of both paints.
-        name: String,
-    },
+    Twice(String),
     /// There is no paint besides the white.
     #[error("a plan needs a pigment beside the white")]
     #[hint("name the pigments: impasto plan \"Cobalt Blue\" [white=\"Titanium White\"]")]
@@ -290,13 +284,10 @@ pub enum PlanError {
         even: f64,
     },
     /// The swatches would not identify every pigment.
-    #[error("these swatches would not identify `{}`", paints.join(", "))]
+    #[error("these swatches would not identify `{}`", .0.join(", "))]
     #[hint("give more [swatches]")]
     #[fault(Input)]
-    Unidentified {
-        /// Names of the paints that would not be identified.
-        paints: Vec<String>,
-    },
+    Unidentified(Vec<String>),
     /// A name does not denote one pigment of the prior library.
     #[error(transparent)]
     Prior(#[from] RecipeError),

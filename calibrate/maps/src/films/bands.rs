@@ -270,7 +270,7 @@ fn rises(pair: &[f64]) -> bool {
 }
 
 fn ground_error(problem: String) -> MapError {
-    MapError::Ground { problem }
+    MapError::Ground(problem)
 }
 
 /// The ground on the bands of a map, and the covariance with which it differs from place to place.
@@ -300,7 +300,7 @@ impl BareGround {
             let nm = wavelengths[band];
             of_scan[band] = ground
                 .at(nm)
-                .ok_or_else(|| MapError::Ground { problem: format!("tells nothing of {nm} nm") })?;
+                .ok_or_else(|| MapError::Ground(format!("tells nothing of {nm} nm")))?;
         }
         let reflectance = bands.fold_scan(&of_scan);
         let own = reflectance.iter().zip(sensor);

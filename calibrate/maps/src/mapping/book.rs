@@ -89,7 +89,7 @@ impl Book {
 
     /// The book as JSON.
     pub fn to_json(&self) -> Result<String, MapError> {
-        serde_json::to_string(self).map_err(|error| MapError::Book { reason: error.to_string() })
+        serde_json::to_string(self).map_err(|error| MapError::Book(error.to_string()))
     }
 
     /// Reads a book that you wrote with [`Book::to_json`].
@@ -98,11 +98,11 @@ impl Book {
     /// [`MapError::Book`] if the text is not a book of this version, or its numbers contradict each
     /// other.
     pub fn from_json(text: &str) -> Result<Self, MapError> {
-        let book: Self = serde_json::from_str(text)
-            .map_err(|error| MapError::Book { reason: error.to_string() })?;
+        let book: Self =
+            serde_json::from_str(text).map_err(|error| MapError::Book(error.to_string()))?;
         if book.format != "impasto-survey" || book.version != VERSION {
             let reason = format!("`{}` of version {}", book.format, book.version);
-            return Err(MapError::Book { reason });
+            return Err(MapError::Book(reason));
         }
         let known = |set: &[u8]| {
             (1..=4).contains(&set.len())
@@ -118,16 +118,16 @@ impl Book {
                         || set.shares.iter().any(|share| !(0.0..=1.0).contains(share))
                 })
         }) {
-            return Err(MapError::Book { reason: format!("entry {} is not valid", index + 1) });
+            return Err(MapError::Book(format!("entry {} is not valid", index + 1)));
         }
         let palette = &book.palette;
         if palette.len() != book.pigments.len() || palette.iter().any(|p| !(0.0..=1.0).contains(p))
         {
             let reason = "its palette has not one probability a pigment".to_owned();
-            return Err(MapError::Book { reason });
+            return Err(MapError::Book(reason));
         }
         if book.sets.iter().any(|set| !known(&set.pigments)) {
-            return Err(MapError::Book { reason: "a set names an unknown pigment".to_owned() });
+            return Err(MapError::Book("a set names an unknown pigment".to_owned()));
         }
         Ok(book)
     }

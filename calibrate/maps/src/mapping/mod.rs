@@ -148,7 +148,7 @@ impl Mapper {
         let folded: Vec<Folded> =
             chosen.filter_map(|pixel| self.prepared.fold(pixel).ok()).collect();
         if folded.is_empty() {
-            return Err(MapError::NothingToSurvey { pixels: surveyed });
+            return Err(MapError::NothingToSurvey(surveyed));
         }
         let names = self.pigments().to_vec();
         let book = Book::new(self.identity.clone(), self.model_error.words(), names);

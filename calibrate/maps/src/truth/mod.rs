@@ -574,6 +574,6 @@ fn check(path: &Path) -> Result<(), TruthError> {
     });
     match is_own {
         true => Ok(()),
-        false => Err(TruthError::Exists { path: path.to_owned() }),
+        false => Err(TruthError::Exists(path.to_owned())),
     }
 }

@@ -248,13 +248,10 @@ pub enum TruthError {
     #[error(transparent)]
     Maps(#[from] StoreError),
     /// The folder holds something else.
-    #[error("{}: holds files that are not the truth of a simulated scan", path.display())]
+    #[error("{}: holds files that are not the truth of a simulated scan", .0.display())]
     #[hint("name another folder, or empty this one")]
     #[fault(Setting)]
-    Exists {
-        /// Path of the folder.
-        path: PathBuf,
-    },
+    Exists(PathBuf),
     /// The folder does not hold truth, or it is damaged.
     #[error("{}: {problem}", path.display())]
     #[hint("simulate the scan again")]

@@ -86,7 +86,7 @@ pub fn subset(
         .filter(|id| (keep.is_empty() || kept.contains(id)) && !dropped.contains(id))
         .collect();
     if ids.is_empty() {
-        return Err(CurationError::Empty { file: file.to_owned() });
+        return Err(CurationError::Empty(file.to_owned()));
     }
     if let Some(reference) = &library.reference
         && !ids.iter().any(|&id| library[id].name == *reference)
@@ -112,7 +112,7 @@ pub fn subset(
 }
 
 fn find(file: &str, library: &PigmentLibrary, name: &str) -> Result<PigmentId, CurationError> {
-    library.find(name).map_err(|error| CurationError::Pigment { file: file.to_owned(), error })
+    library.find(name).map_err(|error| CurationError::Pigment(file.to_owned(), error))
 }
 
 /// Scales K and S to the S of `reference`, a name that [`PigmentLibrary::find`] accepts. Absolute amounts
@@ -132,9 +132,8 @@ pub fn with_reference(
     library: &PigmentLibrary,
     reference: &str,
 ) -> Result<PigmentLibrary, CurationError> {
-    let id = library
-        .find(reference)
-        .map_err(|error| CurationError::Pigment { file: file.to_owned(), error })?;
+    let id =
+        library.find(reference).map_err(|error| CurationError::Pigment(file.to_owned(), error))?;
     let white = &library[id];
     if library.reference.as_ref() == Some(&white.name) {
         return Ok(library.clone());
@@ -226,8 +225,7 @@ pub fn on_grid(
             })
         })
         .collect::<Result<_, _>>();
-    let pigments =
-        pigments.map_err(|error| CurationError::Grid { file: file.to_owned(), error })?;
+    let pigments = pigments.map_err(|error| CurationError::Grid(file.to_owned(), error))?;
     let mut evidence = library.evidence.clone();
     if let Some(evidence) = &mut evidence {
         evidence.warnings.push(format!(
@@ -365,7 +363,7 @@ pub fn add_guessed(
         return Err(CurationError::Unnamed);
     }
     if library.pigments.iter().any(|pigment| pigment.name == name) {
-        return Err(CurationError::NameTaken { name: name.to_owned() });
+        return Err(CurationError::NameTaken(name.to_owned()));
     }
     let weights = Viewing::default().weights(library.grid).expect("a method for the grid");
     let wanted = color.parse::<ColorCode>()?.xyz(weights.white());
@@ -397,14 +395,9 @@ fn glaze_absorption(internal: f64, scattering: f64) -> f64 {
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum CurationError {
     /// A name does not denote one pigment.
-    #[error("{file}: {error}")]
-    #[hint(inner)]
-    Pigment {
-        /// File of the library.
-        file: String,
-        /// Reason why the name denotes no pigment.
-        error: RecipeError,
-    },
+    #[error("{0}: {1}")]
+    #[hint(inner = 1)]
+    Pigment(String, RecipeError),
     /// The new reference white has an unknown S.
     #[error("{file}: the scattering of `{pigment}` is not known, so it cannot be the reference")]
     #[hint("name a pigment that was measured in mixtures and scatters, such as a white")]
@@ -428,18 +421,10 @@ pub enum CurationError {
         value: f64,
     },
     /// The library cannot be interpolated to the new grid.
-    #[error("{file}: {error}")]
-    #[hint(
-        if matches!(error, InterpolateError::TooFew { .. }),
-        "straight lines need only two wavelengths: [interpolation=linear]"
-    )]
+    #[error("{0}: {1}")]
+    #[hint(if matches!(_1, InterpolateError::TooFew(..)), "straight lines need only two wavelengths: [interpolation=linear]")]
     #[hint("choose wavelengths within the library's, or hold its end values: [hold_ends]")]
-    Grid {
-        /// File of the library.
-        file: String,
-        /// Wavelength that is out of reach, and the library's band.
-        error: InterpolateError,
-    },
+    Grid(String, InterpolateError),
     /// One library holds shares, the other amounts on an area.
     #[error("{file} holds {found} amounts and {first} {wanted} ones, which mean different things")]
     #[hint(
@@ -482,12 +467,9 @@ pub enum CurationError {
         found: String,
     },
     /// The first library has no reference white.
-    #[error("{file}: the library has no reference white, so nothing can be scaled to it")]
+    #[error("{0}: the library has no reference white, so nothing can be scaled to it")]
     #[hint("name one of its pigments: [reference=WHITE]")]
-    NoReference {
-        /// File of the library.
-        file: String,
-    },
+    NoReference(String),
     /// The other library lacks the reference white of the first.
     #[error("{file}: no pigment is called `{reference}`, the reference of {first}")]
     #[hint("if it has {reference} under another name: [as=NAME]")]
@@ -535,12 +517,9 @@ pub enum CurationError {
         reference: String,
     },
     /// A subset would be empty.
-    #[error("{file}: no pigment would be left")]
+    #[error("{0}: no pigment would be left")]
     #[hint("name a pigment to keep")]
-    Empty {
-        /// File of the library.
-        file: String,
-    },
+    Empty(String),
     /// No paint under the library's surface has the requested colour.
     #[error(
         "no paint under this surface (k1 = {k1}, k2 = {k2}) has this colour; the nearest is {delta_e:.2} CIEDE2000 off, found `{nearest}`"
@@ -561,13 +540,10 @@ pub enum CurationError {
     #[hint("leave out [tints]")]
     NoWhite,
     /// The ratio of a tint is out of range.
-    #[error("a tint has more than 0 and up to 1e6 parts of white, found `{parts}`")]
+    #[error("a tint has more than 0 and up to 1e6 parts of white, found `{0}`")]
     #[hint("try [tints=1,4,9]")]
     #[fault(Setting)]
-    TintParts {
-        /// Parts of white to one of the pigment.
-        parts: f64,
-    },
+    TintParts(f64),
     /// A text is not a colour.
     #[error(transparent)]
     #[fault(Setting)]
@@ -578,12 +554,9 @@ pub enum CurationError {
     #[fault(Setting)]
     Unnamed,
     /// A pigment was to be guessed under the name of another.
-    #[error("the library has a pigment called `{name}`")]
+    #[error("the library has a pigment called `{0}`")]
     #[hint("choose another [name]")]
-    NameTaken {
-        /// The name.
-        name: String,
-    },
+    NameTaken(String),
     /// A pigment was to be guessed for a library of absolute amounts.
     #[error("a guessed pigment has no unit of amount, and this library is of absolute amounts")]
     #[hint("first convert the library to shares: `impasto library convert` with [reference=WHITE]")]

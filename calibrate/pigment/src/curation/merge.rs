@@ -82,7 +82,7 @@ pub fn merged(
         base = with_reference(&first.file, &base, reference)?;
     }
     if base.amounts == AmountKind::Relative && base.reference.is_none() {
-        return Err(CurationError::NoReference { file: first.file.clone() });
+        return Err(CurationError::NoReference(first.file.clone()));
     }
     for pigment in &mut base.pigments {
         pigment.notes.push(origin(first));

@@ -168,7 +168,7 @@ fn grid(file: &str, header: &csv::StringRecord) -> Result<(Grid, (usize, usize))
         })?);
     }
     let grid = Grid::through(&wavelengths);
-    Ok((grid.ok_or_else(|| TableError::Irregular { file: file.to_owned() })?, columns))
+    Ok((grid.ok_or_else(|| TableError::Irregular(file.to_owned()))?, columns))
 }
 
 fn column(
@@ -241,7 +241,7 @@ fn framed(
         evidence: None,
     };
     if library.pigments.is_empty() {
-        return Err(TableError::Empty { file: file.to_owned() });
+        return Err(TableError::Empty(file.to_owned()));
     }
     if frame.amounts == AmountKind::Absolute {
         return Ok(library);
@@ -250,7 +250,7 @@ fn framed(
         (Some(name), _) => {
             let id = library
                 .find(&name)
-                .map_err(|error| CurationError::Pigment { file: file.to_owned(), error })?;
+                .map_err(|error| CurationError::Pigment(file.to_owned(), error))?;
             let name = library[id].name.clone();
             if !whites.contains(&name) {
                 let relative = super::change::with_reference(file, &library, &name)?;
@@ -294,12 +294,9 @@ pub enum TableError {
         reason: String,
     },
     /// The wavelengths do not rise at a constant step.
-    #[error("{file}, row 1: wavelengths must rise at a constant step")]
+    #[error("{0}, row 1: wavelengths must rise at a constant step")]
     #[hint("resample the curves to a regular grid first")]
-    Irregular {
-        /// File name as the caller gave it.
-        file: String,
-    },
+    Irregular(String),
     /// A pigment lacks its K or S.
     #[error("{file}: pigment {pigment} has no row of `{quantity}`")]
     MissingCurve {
@@ -311,11 +308,8 @@ pub enum TableError {
         quantity: &'static str,
     },
     /// The table has no rows.
-    #[error("{file}: the table holds no pigment")]
-    Empty {
-        /// File name as the caller gave it.
-        file: String,
-    },
+    #[error("{0}: the table holds no pigment")]
+    Empty(String),
     /// None or several pigments have S = 1 at every wavelength.
     #[error("{file}: expected one pigment with S = 1 at every wavelength, found `{}`", whites.len())]
     #[hint(
@@ -386,7 +380,7 @@ impl Swatches {
             return Err(CurationError::NoWhite);
         }
         if let Some(&parts) = tints.iter().find(|parts| !(**parts > 0.0 && **parts <= 1e6)) {
-            return Err(CurationError::TintParts { parts });
+            return Err(CurationError::TintParts(parts));
         }
         let weights = viewing.weights(library.grid).expect("a method for the grid");
         let mut swatches = Vec::new();

@@ -178,7 +178,7 @@ impl RecipeLimits {
             !self.required.is_empty() && self.required.iter().all(|r| r.share.is_some());
         let whole = total > 1.0 + 1e-9 || (total > 1.0 - 1e-9 && !all_fixed);
         if whole || fixed.any(|share| !(share > 0.0 && share <= 1.0)) {
-            return Err(MatchError::Shares { total });
+            return Err(MatchError::Shares(total));
         }
         if self.whole_parts.is_some() && total > 0.0 {
             return Err(MatchError::SharesInParts);
@@ -279,12 +279,9 @@ pub enum MatchError {
     #[error("a recipe is judged under at least one light")]
     NoLight,
     /// One light is named twice.
-    #[error("the light {name} is given twice")]
+    #[error("the light {0} is given twice")]
     #[hint("give each light once, with its weight: [illuminant=D65=2] [illuminant=A]")]
-    RepeatedLight {
-        /// Name of the light.
-        name: String,
-    },
+    RepeatedLight(String),
     /// A number of the request is out of range.
     #[error("{what}, found `{value}`")]
     #[hint("{hint}")]
@@ -306,21 +303,13 @@ pub enum MatchError {
         at_most: usize,
     },
     /// One pigment is both required and excluded.
-    #[error("{name} is both required and excluded")]
+    #[error("{0} is both required and excluded")]
     #[hint("name it in one of [with] and [without] only")]
-    RequiredAndExcluded {
-        /// Name of the pigment.
-        name: String,
-    },
+    RequiredAndExcluded(String),
     /// Fixed shares leave nothing for the other pigments, or exceed the whole.
-    #[error(
-        "fixed shares are above 0 and leave room for the other pigments, found a sum of `{total}`"
-    )]
+    #[error("fixed shares are above 0 and leave room for the other pigments, found a sum of `{0}`")]
     #[hint("let fixed shares sum to less than 1")]
-    Shares {
-        /// Sum of all fixed shares.
-        total: f64,
-    },
+    Shares(f64),
     /// Recipes in whole parts cannot have fixed shares.
     #[error("recipes in whole parts take no fixed shares")]
     #[hint("leave out [parts], or the share of the pigment")]
@@ -338,12 +327,9 @@ pub enum MatchError {
     #[hint("give [over] a [thickness], such as 1 or 0.2:3")]
     HiddenGround,
     /// A search by spectrum was asked for a target that is only a colour.
-    #[error("a match by spectrum needs a measured spectrum, and `{name}` is only a colour")]
+    #[error("a match by spectrum needs a measured spectrum, and `{0}` is only a colour")]
     #[hint("give the file of its reading, FILE or FILE#SAMPLE, or match by colour: [by=color]")]
-    NoSpectrum {
-        /// Name of the target.
-        name: String,
-    },
+    NoSpectrum(String),
     /// The wavelengths of the target and of the library do not overlap.
     #[error(
         "`{name}` was measured from {} to {} nm, the library from {} to {} nm: they share no band",
@@ -372,24 +358,15 @@ pub enum MatchError {
     #[fault(Input)]
     Recipe(#[from] RecipeError),
     /// A row of a price list names no pigment of the library.
-    #[error("{place}, column `pigment`")]
-    #[hint(inner)]
+    #[error("{0}, column `pigment`")]
+    #[hint(inner = 1)]
     #[fault(Input)]
-    PricedPigment {
-        /// File and row.
-        place: String,
-        /// Reason why the name denotes no pigment.
-        #[source]
-        error: RecipeError,
-    },
+    PricedPigment(String, #[source] RecipeError),
     /// Pigments that may take part have no price, while others have one.
-    #[error("no price for {}", pigments.join(", "))]
+    #[error("no price for {}", .0.join(", "))]
     #[hint("price every pigment that may take part, or leave some out with [without] or [only]")]
     #[fault(Input)]
-    NoPrice {
-        /// Names of the pigments without a price.
-        pigments: Vec<String>,
-    },
+    NoPrice(Vec<String>),
     /// The ground cannot be used.
     #[error(transparent)]
     Backing(#[from] BackingError),

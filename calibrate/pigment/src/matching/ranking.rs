@@ -89,7 +89,7 @@ pub(super) fn recipes_and_nearest(
 ) -> Result<(Vec<RecipeMatch>, f64), MatchError> {
     limits.check(library)?;
     if limits.metric.spectrum_weights().is_some() && target.spectrum.is_none() {
-        return Err(MatchError::NoSpectrum { name: target.name.clone() });
+        return Err(MatchError::NoSpectrum(target.name.clone()));
     }
     let forward = Forward::new(library, limits).expect("the method fits the grid");
     let steps = task.steps(expected(limits));

@@ -194,7 +194,7 @@ pub(super) fn spectrum_of(
     let asked = metric.spectrum_weights();
     let TargetColor::Reflectance(measured) = &target.color else {
         return if asked.is_some() {
-            Err(MatchError::NoSpectrum { name: target.name.clone() })
+            Err(MatchError::NoSpectrum(target.name.clone()))
         } else {
             Ok(None)
         };

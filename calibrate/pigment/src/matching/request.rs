@@ -215,7 +215,7 @@ impl MatchRequest {
             .map(|condition| condition.viewing.illuminant.name().to_owned())
             .collect();
         let repeated = (1..names.len()).find(|&at| names[..at].contains(&names[at]));
-        repeated.map_or(Ok(()), |at| Err(MatchError::RepeatedLight { name: names[at].clone() }))
+        repeated.map_or(Ok(()), |at| Err(MatchError::RepeatedLight(names[at].clone())))
     }
 
     fn film(
@@ -259,7 +259,7 @@ impl MatchRequest {
         let both = limits.required.iter().find(|required| without.contains(&required.pigment));
         if let Some(RequiredPigment { pigment, .. }) = both {
             let name = library[*pigment].name.clone();
-            return Err(MatchError::RequiredAndExcluded { name });
+            return Err(MatchError::RequiredAndExcluded(name));
         }
         limits.allowed.retain(|pigment| !without.contains(pigment));
         limits.allowed.sort_unstable();
@@ -444,7 +444,7 @@ impl PriceList {
     /// # Errors
     /// [`PriceError`] with the row.
     pub fn add_csv(&mut self, file: &str, bytes: &[u8]) -> Result<(), PriceError> {
-        let broken = |reason: csv::Error| PriceError::Table { file: file.to_owned(), reason };
+        let broken = |reason: csv::Error| PriceError::Table(file.to_owned(), reason);
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(bytes);
         let headers = reader.headers().map_err(broken)?.clone();
         let pigment = header_column(file, &headers, "pigment")?;
@@ -478,7 +478,7 @@ impl PriceList {
         let mut found: Vec<Option<f64>> = vec![None; library.pigments.len()];
         for Entry { pigment, price, place } in &self.entries {
             let id = library.find(pigment).map_err(|error| match place {
-                Some(place) => MatchError::PricedPigment { place: place.clone(), error },
+                Some(place) => MatchError::PricedPigment(place.clone(), error),
                 None => MatchError::Recipe(error),
             })?;
             found[id.index()] = Some(*price);
@@ -486,7 +486,7 @@ impl PriceList {
         let missing = needed.iter().filter(|id| found[id.index()].is_none());
         let missing: Vec<String> = missing.map(|id| library[*id].name.clone()).collect();
         if !missing.is_empty() {
-            return Err(MatchError::NoPrice { pigments: missing });
+            return Err(MatchError::NoPrice(missing));
         }
         Ok(found.into_iter().map(|price| price.unwrap_or(0.0)).collect())
     }
@@ -517,14 +517,8 @@ pub enum PriceError {
     #[error(transparent)]
     File(#[from] FileError),
     /// The file is not a CSV table.
-    #[error("{file}: no table of prices")]
-    Table {
-        /// File name as the caller gave it.
-        file: String,
-        /// Message of the CSV parser.
-        #[source]
-        reason: csv::Error,
-    },
+    #[error("{0}: no table of prices")]
+    Table(String, #[source] csv::Error),
     /// A column is missing.
     #[error("{file}, row 1: no column `{column}`")]
     #[hint("the first row is `pigment,price`; commas separate the columns")]

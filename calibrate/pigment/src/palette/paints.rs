@@ -45,7 +45,7 @@ impl<'a> Palette<'a> {
         let weights = viewing.weights(library.grid).expect("the method fits the grid");
         let paints: Vec<PigmentId> = library.ids().filter(|&p| library[p].identified).collect();
         if paints.is_empty() {
-            return Err(PaletteError::NothingToMix { pigments: library.pigments.len() });
+            return Err(PaletteError::NothingToMix(library.pigments.len()));
         }
         let mut palette =
             Self { library, viewing, weights, cards, paints, white: None, washes: Vec::new() };
@@ -66,7 +66,7 @@ impl<'a> Palette<'a> {
     pub fn among(mut self, pigments: &[PigmentId]) -> Result<Self, PaletteError> {
         self.paints.retain(|paint| pigments.contains(paint));
         if self.paints.is_empty() {
-            return Err(PaletteError::NothingToMix { pigments: pigments.len() });
+            return Err(PaletteError::NothingToMix(pigments.len()));
         }
         self.white = self.white.map(|_| self.white_paint());
         Ok(self)
@@ -291,14 +291,9 @@ pub(super) fn crossing(thin: f64, thick: f64, reached: impl Fn(f64) -> bool) -> 
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Explain)]
 pub enum PaletteError {
     /// No pigment has an identified scattering.
-    #[error(
-        "none of the library's pigments can be mixed: scattering is identified of `0` of {pigments}"
-    )]
+    #[error("none of the library's pigments can be mixed: scattering is identified of `0` of {0}")]
     #[hint("measure mixtures of each pigment with the white, and fit again")]
-    NothingToMix {
-        /// Number of pigments in the library.
-        pigments: usize,
-    },
+    NothingToMix(usize),
     /// The number of reflectances of a card differs from the number of wavelengths of the library.
     #[error(
         "a card has one reflectance for each of the library's {wanted} wavelengths, found `{found}`"

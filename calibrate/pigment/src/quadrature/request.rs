@@ -113,10 +113,10 @@ impl QuadratureRequest {
             }
             (QuadratureChoice::Effective, Some(library)) => return self.effective(library, task),
             (QuadratureChoice::Library, None) => {
-                return Err(QuadratureFailure::NoLibrary { method: "library" });
+                return Err(QuadratureFailure::NoLibrary("library"));
             }
             (QuadratureChoice::Effective, None) => {
-                return Err(QuadratureFailure::NoLibrary { method: "effective" });
+                return Err(QuadratureFailure::NoLibrary("effective"));
             }
         };
         let tested = library.filter(|_| self.mixtures > 0);

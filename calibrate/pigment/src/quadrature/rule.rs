@@ -185,7 +185,7 @@ impl Light {
         (count <= MAX_NODES)
             .then(|| GaussRule::new(&self.nm, &weight, count))
             .flatten()
-            .ok_or(QuadratureFailure::Count { count })
+            .ok_or(QuadratureFailure::Count(count))
     }
 
     fn at(&self, nm: f64) -> [f64; 3] {
@@ -200,21 +200,15 @@ impl Light {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error, Explain)]
 pub enum QuadratureFailure {
     /// The number of nodes is 0 or above 32.
-    #[error("a quadrature has 1 to 32 wavelengths, found `{count}`")]
+    #[error("a quadrature has 1 to 32 wavelengths, found `{0}`")]
     #[hint("eight wavelengths are enough for most paints: [nodes=8]")]
     #[fault(Setting)]
-    Count {
-        /// Number of nodes that was requested.
-        count: usize,
-    },
+    Count(usize),
     /// A method fits wavelengths to a library, and there is none.
-    #[error("the method `{method}` needs a pigment library")]
+    #[error("the method `{0}` needs a pigment library")]
     #[hint("name the [library], or choose [method=moments]")]
     #[fault(Setting)]
-    NoLibrary {
-        /// Name of the method.
-        method: &'static str,
-    },
+    NoLibrary(&'static str),
     /// The fit was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

@@ -47,19 +47,13 @@ pub enum FrameError {
         found: usize,
     },
     /// The frame rate is out of range.
-    #[error("0.1 to 100 frames a second, found `{found}`")]
+    #[error("0.1 to 100 frames a second, found `{0}`")]
     #[hint("25 is usual")]
-    Rate {
-        /// Frames per second.
-        found: f64,
-    },
+    Rate(f64),
     /// The file is not a frame that [`frame_png`] wrote.
-    #[error("no frame: {reason}")]
+    #[error("no frame: {0}")]
     #[hint("remove the file, and it is rendered again")]
-    Unreadable {
-        /// Reason given by the decoder.
-        reason: String,
-    },
+    Unreadable(String),
     /// The encoder or the writer failed.
     #[error("no {format} could be made: {reason}")]
     Encoder {
@@ -82,7 +76,7 @@ impl FrameRate {
     pub fn new(per_second: f64) -> Result<Self, FrameError> {
         match (0.1..=100.0).contains(&per_second) {
             true => Ok(Self(per_second)),
-            false => Err(FrameError::Rate { found: per_second }),
+            false => Err(FrameError::Rate(per_second)),
         }
     }
 
@@ -142,7 +136,7 @@ pub fn frame_png(frame: &Frame) -> Result<Vec<u8>, FrameError> {
 /// [`FrameError::Unreadable`] for any other file: truncated, not PNG, other channels.
 pub fn read_frame(file: impl BufRead + Seek) -> Result<Frame, FrameError> {
     fn broken(reason: String) -> FrameError {
-        FrameError::Unreadable { reason }
+        FrameError::Unreadable(reason)
     }
     let mut reader = Decoder::new(file).read_info().map_err(|error| broken(error.to_string()))?;
     let kind = reader.output_color_type();
@@ -277,7 +271,7 @@ mod tests {
         assert_eq!(read_frame(Cursor::new(&file)).unwrap(), frame);
         for length in 0..file.len() {
             let part = read_frame(Cursor::new(&file[..length]));
-            assert!(matches!(part, Err(FrameError::Unreadable { .. })), "{length} bytes");
+            assert!(matches!(part, Err(FrameError::Unreadable(..))), "{length} bytes");
         }
     }
 

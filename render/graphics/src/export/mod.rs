@@ -71,11 +71,8 @@ pub enum ExportError {
         found: f32,
     },
     /// The size of a pixel is out of range.
-    #[error("a cell is 0.0001 to 100 mm wide, found `{cell_mm}`")]
-    Cell {
-        /// Width of a pixel in mm.
-        cell_mm: f64,
-    },
+    #[error("a cell is 0.0001 to 100 mm wide, found `{0}`")]
+    Cell(f64),
     /// Wavelengths do not rise, or there is not one per plane.
     #[error(
         "wavelengths rise, in nm above 0, one for each plane; found `{found}` for plane {plane}"
@@ -101,7 +98,7 @@ pub enum ExportError {
 /// # Errors
 /// [`ExportError::Cell`].
 pub fn check_cell(cell_mm: f64) -> Result<(), ExportError> {
-    if (1e-4..=100.0).contains(&cell_mm) { Ok(()) } else { Err(ExportError::Cell { cell_mm }) }
+    if (1e-4..=100.0).contains(&cell_mm) { Ok(()) } else { Err(ExportError::Cell(cell_mm)) }
 }
 
 /// Checks that a picture is not empty and not larger than the formats allow.

@@ -371,6 +371,6 @@ mod tests {
         assert_eq!(tiff16(&picture(), 0.1), tiff16(&picture(), 0.1));
         let empty = Field::from_values(0, 0, Vec::new());
         assert!(matches!(tiff16(&empty, 0.1), Err(ExportError::Size { .. })));
-        assert!(matches!(tiff16(&picture(), 0.0), Err(ExportError::Cell { .. })));
+        assert!(matches!(tiff16(&picture(), 0.0), Err(ExportError::Cell(..))));
     }
 }

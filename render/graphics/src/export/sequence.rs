@@ -73,7 +73,7 @@ impl Sequence {
             None => {
                 let paths = (0..sequence.settings.frames).map(|index| sequence.path(index));
                 if let Some(path) = paths.into_iter().find(|path| path.exists()) {
-                    return Err(SequenceError::Foreign { path });
+                    return Err(SequenceError::Foreign(path));
                 }
                 sequence.write_manifest()?;
             }
@@ -104,7 +104,7 @@ impl Sequence {
     pub fn write_frame(&mut self, index: usize, frame: &Frame) -> Result<(), SequenceError> {
         let path = self.path(index);
         let png = self.check_size(frame).and_then(|()| frame_png(frame));
-        let png = png.map_err(|source| SequenceError::Frame { path: path.clone(), source })?;
+        let png = png.map_err(|source| SequenceError::Frame(path.clone(), source))?;
         write_whole(&path, &png)?;
         self.remaining.retain(|&other| other != index);
         Ok(())
@@ -154,7 +154,7 @@ impl Sequence {
             let file = File::open(&path).map_err(at(&path))?;
             let frame = read_frame(BufReader::new(file));
             let checked = frame.and_then(|frame| self.check_size(&frame).map(|()| frame));
-            checked.map_err(|source| SequenceError::Frame { path, source })
+            checked.map_err(|source| SequenceError::Frame(path, source))
         })
     }
 
@@ -166,7 +166,7 @@ impl Sequence {
             let bytes = fs::read(&path).map_err(at(&path))?;
             let frame = CompressedFrame::from_png(&bytes)
                 .map_or_else(|| CompressedFrame::new(&read_frame(Cursor::new(&bytes))?), Ok);
-            frame.map_err(|source| SequenceError::Frame { path, source })
+            frame.map_err(|source| SequenceError::Frame(path, source))
         })
     }
 
@@ -201,14 +201,14 @@ impl Sequence {
         let settings = self.settings.clone();
         let manifest = Manifest { format: FORMAT.to_owned(), version: VERSION, settings };
         let mut text = serde_json::to_vec_pretty(&manifest)
-            .map_err(|error| SequenceError::Io { path: path.clone(), source: error.into() })?;
+            .map_err(|error| SequenceError::Io(path.clone(), error.into()))?;
         text.push(b'\n');
         Ok(write_whole(&path, &text)?)
     }
 }
 
 fn at(path: &Path) -> impl Fn(std::io::Error) -> SequenceError {
-    move |source| SequenceError::Io { path: path.to_owned(), source }
+    move |source| SequenceError::Io(path.to_owned(), source)
 }
 
 fn read_manifest(path: &Path) -> Result<Option<SequenceSettings>, SequenceError> {
@@ -306,21 +306,13 @@ pub enum SequenceError {
     #[fault(Environment)]
     File(#[from] FileError),
     /// A file or folder cannot be read or changed.
-    #[error("{}: {source}", .path.display())]
+    #[error("{}: {source}", .0.display(), source = .1)]
     #[hint("is the folder writable, and is there room?")]
-    Io {
-        /// Path of the file or folder.
-        path: PathBuf,
-        /// Reason given by the system.
-        source: std::io::Error,
-    },
+    Io(PathBuf, #[source] std::io::Error),
     /// The folder holds frames but no manifest with their settings.
-    #[error("{}: the folder holds frames but no {MANIFEST}", .path.display())]
+    #[error("{}: the folder holds frames but no {MANIFEST}", .0.display())]
     #[hint("name an empty folder, or move the frames away")]
-    Foreign {
-        /// Path of the first such frame.
-        path: PathBuf,
-    },
+    Foreign(PathBuf),
     /// `animation.json` is not a manifest of this version.
     #[error("{}: {reason}", .path.display())]
     #[hint("name an empty folder, or remove this one")]
@@ -331,14 +323,9 @@ pub enum SequenceError {
         reason: String,
     },
     /// A frame cannot be encoded or decoded.
-    #[error("{}: {source}", .path.display())]
+    #[error("{}: {source}", .0.display(), source = .1)]
     #[hint(inner)]
-    Frame {
-        /// Path of the frame.
-        path: PathBuf,
-        /// Error of the encoder or decoder.
-        source: FrameError,
-    },
+    Frame(PathBuf, #[source] FrameError),
     /// The frames cannot be joined to an animation.
     #[error(transparent)]
     Animation(#[from] FrameError),
@@ -416,7 +403,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join("frame-0002.png"), b"whose?").unwrap();
         let error = Sequence::open(folder.path(), settings("a")).unwrap_err();
-        assert!(matches!(error, SequenceError::Foreign { .. }) && error.hint().is_some());
+        assert!(matches!(error, SequenceError::Foreign(..)) && error.hint().is_some());
         for text in ["", "{}", r#"{"format":"x","version":1,"shots":{}}"#] {
             fs::write(folder.path().join(MANIFEST), text).unwrap();
             let error = Sequence::open(folder.path(), settings("a")).unwrap_err();
@@ -438,7 +425,7 @@ mod tests {
     fn frames_are_written_while_the_next_are_made_and_up_to_an_error() {
         let folder = tempfile::tempdir().unwrap();
         let mut sequence = Sequence::open(folder.path(), settings("a")).unwrap();
-        let fail = FrameError::Rate { found: 0.0 };
+        let fail = FrameError::Rate(0.0);
         let made = sequence.write_frames(|index| match index {
             2 => Err(SequenceError::Animation(fail.clone())),
             _ => Ok(frame(index as u8)),

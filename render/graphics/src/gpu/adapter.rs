@@ -163,17 +163,11 @@ pub fn best(adapters: &[Adapter], choice: BackendChoice) -> Option<&Adapter> {
 #[fault(Environment)]
 pub enum DeviceError {
     /// You cannot use any adapter.
-    #[error("no graphics adapter: {reason}")]
-    NoAdapter {
-        /// The reason, one line.
-        reason: String,
-    },
+    #[error("no graphics adapter: {0}")]
+    NoAdapter(String),
     /// The device was lost, with all its memory.
-    #[error("the graphics device was lost: {reason}")]
-    Lost {
-        /// Message of the driver.
-        reason: String,
-    },
+    #[error("the graphics device was lost: {0}")]
+    Lost(String),
     /// A buffer is larger than the adapter allows.
     #[error("{what} takes {bytes} bytes, the device allows {limit}")]
     TooLarge {

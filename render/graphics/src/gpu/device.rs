@@ -55,7 +55,7 @@ impl Device {
     /// [`DeviceError::NoAdapter`] if the adapter is unfit or the driver cannot open it.
     pub fn open(adapter: &Adapter) -> Result<Self, DeviceError> {
         if let Some(reason) = &adapter.unfit {
-            return Err(DeviceError::NoAdapter { reason: format!("{}: {reason}", adapter.name) });
+            return Err(DeviceError::NoAdapter(format!("{}: {reason}", adapter.name)));
         }
         let own = adapter.inner.limits();
         let limits = wgpu::Limits {
@@ -71,9 +71,8 @@ impl Device {
             ..wgpu::DeviceDescriptor::default()
         };
         let opened = pollster::block_on(adapter.inner.request_device(&asked));
-        let (inner, queue) = opened.map_err(|error| DeviceError::NoAdapter {
-            reason: format!("{}: {error}", adapter.name),
-        })?;
+        let (inner, queue) =
+            opened.map_err(|error| DeviceError::NoAdapter(format!("{}: {error}", adapter.name)))?;
         let reported = Arc::new(Mutex::new(Reported::default()));
         let for_loss = Arc::clone(&reported);
         let for_errors = Arc::clone(&reported);
@@ -121,7 +120,7 @@ impl Device {
     pub(super) fn check(&self, what: &str) -> Result<(), DeviceError> {
         let mut reported = self.reported();
         if let Some(reason) = reported.lost.clone() {
-            return Err(DeviceError::Lost { reason });
+            return Err(DeviceError::Lost(reason));
         }
         match reported.refused.take() {
             Some(reason) => Err(DeviceError::Refused { what: what.to_owned(), reason }),
@@ -267,7 +266,7 @@ pub fn choose(choice: BackendChoice) -> Result<Option<Device>, DeviceError> {
         (BackendChoice::Gpu, Ok(None)) => {
             let unfit = adapters.first().and_then(|adapter| adapter.unfit.clone());
             let reason = unfit.unwrap_or_else(|| "no driver offers one".to_owned());
-            Err(DeviceError::NoAdapter { reason })
+            Err(DeviceError::NoAdapter(reason))
         }
         (BackendChoice::Gpu, opened) => opened,
         (_, opened) => Ok(opened.ok().flatten()),

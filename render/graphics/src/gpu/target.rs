@@ -304,7 +304,7 @@ impl Device {
             });
             self.wait(index)?;
             fn lost() -> DeviceError {
-                DeviceError::Lost { reason: "its memory cannot be read".to_owned() }
+                DeviceError::Lost("its memory cannot be read".to_owned())
             }
             if !receiver.try_recv().unwrap_or(false) {
                 return Err(lost());

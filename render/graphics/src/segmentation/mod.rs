@@ -136,14 +136,14 @@ impl SegmentationSettings {
         let spatial_px = self.spatial_radius_px;
         let range = self.range_radius;
         if !(1.0..=Self::MAX_SPATIAL_PX).contains(&spatial_px) {
-            return Err(SegmentationError::SpatialRadius { found: spatial_px });
+            return Err(SegmentationError::SpatialRadius(spatial_px));
         }
         let step = self.tone_step;
         if !(step >= 0.0 && step.is_finite()) {
-            return Err(SegmentationError::ToneStep { found: step });
+            return Err(SegmentationError::ToneStep(step));
         }
         if !(range > 0.0 && range.is_finite()) {
-            return Err(SegmentationError::RangeRadius { found: range });
+            return Err(SegmentationError::RangeRadius(range));
         }
         Ok(Bandwidth { spatial_px, range })
     }
@@ -153,27 +153,15 @@ impl SegmentationSettings {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error, Explain)]
 pub enum SegmentationError {
     /// The radius of the window in the picture.
-    #[error(
-        "a spatial radius is 1 to {} px, found `{found}`",
-        SegmentationSettings::MAX_SPATIAL_PX
-    )]
+    #[error("a spatial radius is 1 to {} px, found `{found}`", SegmentationSettings::MAX_SPATIAL_PX, found = .0)]
     #[hint("about a hundredth of the picture's width is usual")]
-    SpatialRadius {
-        /// The radius that was set, in pixels.
-        found: f32,
-    },
+    SpatialRadius(f32),
     /// The radius of the window in colour.
-    #[error("a range radius is a number above 0, found `{found}`")]
+    #[error("a range radius is a number above 0, found `{0}`")]
     #[hint("8 keeps apart what the eye tells apart; more gives flatter regions")]
-    RangeRadius {
-        /// The radius that was set, in CIELUV.
-        found: f32,
-    },
+    RangeRadius(f32),
     /// The step between tones.
-    #[error("a step of tone is a number of 0 and up, found `{found}`")]
+    #[error("a step of tone is a number of 0 and up, found `{0}`")]
     #[hint("25 divides a round form into a few tones; 0 divides nothing")]
-    ToneStep {
-        /// The step that was set, in CIELUV.
-        found: f32,
-    },
+    ToneStep(f32),
 }

@@ -57,10 +57,10 @@ impl Head {
     /// not above 0.
     pub fn new(shape: HeadShape, size_mm: f64, cell_mm: f64) -> Result<Self, BrushError> {
         if !SIZES_MM.contains(&size_mm) {
-            return Err(BrushError::Size { size_mm });
+            return Err(BrushError::Size(size_mm));
         }
         if !(cell_mm.is_finite() && cell_mm > 0.0) {
-            return Err(BrushError::Cell { cell_mm });
+            return Err(BrushError::Cell(cell_mm));
         }
         if size_mm / cell_mm > WIDEST {
             return Err(BrushError::TooFine { size_mm, cell_mm });

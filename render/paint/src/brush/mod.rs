@@ -254,19 +254,13 @@ const KNIFE: Proportions = Proportions {
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum BrushError {
     /// The width of the head is out of range.
-    #[error("a head is 0.2 to 100 mm wide: `{size_mm}` mm")]
+    #[error("a head is 0.2 to 100 mm wide: `{0}` mm")]
     #[hint("give the width of the head in mm, such as 6")]
-    Size {
-        /// Width of the head in mm.
-        size_mm: f64,
-    },
+    Size(f64),
     /// The width of a cell is not above 0.
-    #[error("cells have a width above 0 mm: `{cell_mm}` mm")]
+    #[error("cells have a width above 0 mm: `{0}` mm")]
     #[hint("give the width of a cell in mm, such as 0.1")]
-    Cell {
-        /// Width of a cell in mm.
-        cell_mm: f64,
-    },
+    Cell(f64),
     /// The head would have more cells than allowed.
     #[error("a head is at most 2048 cells wide: `{size_mm}` mm over cells of {cell_mm} mm")]
     #[hint("take a smaller brush or larger cells")]

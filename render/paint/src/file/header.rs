@@ -171,8 +171,7 @@ impl FileHeader {
     }
 
     pub(super) fn to_json(&self) -> Result<String, PaintingFileError> {
-        ascii_json(self)
-            .map_err(|error| PaintingFileError::Unwritable { reason: error.to_string() })
+        ascii_json(self).map_err(|error| PaintingFileError::Unwritable(error.to_string()))
     }
 
     /// Parses and checks a description. You get it with the library that it holds.
@@ -286,10 +285,9 @@ impl LayerAttribute {
     pub(super) fn to_json(&self) -> Result<String, PaintingFileError> {
         if let Some(wanted) = layer_name_violation(&self.name) {
             let reason = format!("layer {} has no {wanted}", self.id);
-            return Err(PaintingFileError::Unwritable { reason });
+            return Err(PaintingFileError::Unwritable(reason));
         }
-        ascii_json(self)
-            .map_err(|error| PaintingFileError::Unwritable { reason: error.to_string() })
+        ascii_json(self).map_err(|error| PaintingFileError::Unwritable(error.to_string()))
     }
 
     /// Description of the layer at `index`, from 0. `part` is the part of the file that holds it.

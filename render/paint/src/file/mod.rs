@@ -151,16 +151,13 @@ pub enum PaintingFileError {
         limit: u64,
     },
     /// The painting contradicts itself, so we cannot write a file of it.
-    #[error("the painting cannot be saved: {reason}")]
-    Unwritable {
-        /// Reason, with the layer.
-        reason: String,
-    },
+    #[error("the painting cannot be saved: {0}")]
+    Unwritable(String),
 }
 
 impl PaintingFileError {
     fn unwritable(reason: String) -> Self {
-        Self::Unwritable { reason }
+        Self::Unwritable(reason)
     }
 
     fn header(file: &str, reason: String) -> Self {

@@ -93,7 +93,7 @@ pub(super) fn encode(
         }
         Ok(())
     })
-    .map_err(|error| PaintingFileError::Unwritable { reason: error.to_string() })?;
+    .map_err(|error| PaintingFileError::Unwritable(error.to_string()))?;
     Ok(bytes)
 }
 

@@ -58,12 +58,9 @@ pub enum GroundError {
         highest_mm: f64,
     },
     /// The colour is not written as `#rrggbb`.
-    #[error("the colour of a ground is written #rrggbb, found `{text}`")]
+    #[error("the colour of a ground is written #rrggbb, found `{0}`")]
     #[hint("or give a number 0 to 1, or {{\"spectrum\": {{..}}}}")]
-    Color {
-        /// Text that was found.
-        text: String,
-    },
+    Color(String),
     /// The reflectance spectrum is invalid.
     #[error("reflectance of the ground: {0}")]
     Spectrum(#[from] spectra::SpectrumError),

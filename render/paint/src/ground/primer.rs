@@ -92,8 +92,7 @@ impl Primer {
                 Ok(vec![check_range("reflectance", "", *value, [0.0, 1.0])?; grid.count()])
             }
             Self::Color(ColorPrimer { rgb }) => {
-                let color =
-                    Rgb::from_hex(rgb).ok_or_else(|| GroundError::Color { text: rgb.clone() })?;
+                let color = Rgb::from_hex(rgb).ok_or_else(|| GroundError::Color(rgb.clone()))?;
                 let weights = Viewing::default().weights(grid)?;
                 let white = weights.white();
                 let surface = library.saunderson;

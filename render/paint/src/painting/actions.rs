@@ -126,7 +126,7 @@ impl Painting {
                 let Squeeze { vehicle, x_mm, y_mm, volume_mm3, .. } = *squeeze;
                 self.squeeze(&recipe, vehicle, x_mm, y_mm, volume_mm3)?;
             }
-            (action, _) => return Err(PaintingError::NoSession { kind: action.kind() }),
+            (action, _) => return Err(PaintingError::NoSession(action.kind())),
         }
         Ok(true)
     }
@@ -144,13 +144,13 @@ impl Painting {
             }
             (Action::Wipe { keep, .. }, _) => self.wipe(brush, *keep),
             (Action::Wash { .. }, _) => self.wash(brush),
-            (action, _) => Err(PaintingError::NoSession { kind: action.kind() }),
+            (action, _) => Err(PaintingError::NoSession(action.kind())),
         }
     }
 
     /// Index of a dry layer. An error for the wet one, which has no `what`.
     fn dry_layer(&self, layer: LayerRef, what: &'static str) -> Result<usize, PaintingError> {
-        self.dry_index(layer)?.ok_or(PaintingError::WetLayer { what })
+        self.dry_index(layer)?.ok_or(PaintingError::WetLayer(what))
     }
 
     /// Parts of a recipe by slot of the palette.
@@ -223,7 +223,7 @@ impl Painting {
             }
         }
         if wanted.len() > self.state.slots.len() {
-            return Err(PaintingError::TooManyPigments { found: wanted.len() });
+            return Err(PaintingError::TooManyPigments(wanted.len()));
         }
         let mut slots: Slots = self.state.slots;
         let leaves =
@@ -234,7 +234,7 @@ impl Painting {
                 match *slot {
                     Some(pigment) if amount > 0.0 => {
                         let pigment = self.pigment_name(pigment);
-                        return Err(PaintingError::StillWet { pigment });
+                        return Err(PaintingError::StillWet(pigment));
                     }
                     _ => *slot = None,
                 }
@@ -265,12 +265,12 @@ impl Painting {
         let dry = self.dry_index(layer)?;
         let slots = self.slots(layer)?;
         if slots.contains(&Some(to)) {
-            return Err(PaintingError::AlreadyThere { pigment: self.pigment_name(to) });
+            return Err(PaintingError::AlreadyThere(self.pigment_name(to)));
         }
         let place = slots
             .iter()
             .position(|&slot| slot == Some(from))
-            .ok_or_else(|| PaintingError::NotThere { pigment: self.pigment_name(from) })?;
+            .ok_or_else(|| PaintingError::NotThere(self.pigment_name(from)))?;
         self.apply_action(|painting| {
             match dry {
                 None => painting.state.slots[place] = Some(to),
@@ -336,7 +336,7 @@ impl Painting {
     /// [`PaintingError::OffPalette`] if no slot does.
     pub fn slot_of(&self, pigment: PigmentId) -> Result<usize, PaintingError> {
         let found = self.state.slots.iter().position(|&slot| slot == Some(pigment));
-        found.ok_or_else(|| PaintingError::OffPalette { pigment: self.pigment_name(pigment) })
+        found.ok_or_else(|| PaintingError::OffPalette(self.pigment_name(pigment)))
     }
 
     pub(super) fn pigment_name(&self, pigment: PigmentId) -> String {
@@ -543,7 +543,7 @@ impl Painting {
 
     /// The merge of two layers, if films between and pigments allow it.
     fn possible_merge(&mut self, a: LayerRef, b: LayerRef) -> Result<Merge, PaintingError> {
-        let wet = PaintingError::WetLayer { what: "layer to merge with" };
+        let wet = PaintingError::WetLayer("layer to merge with");
         let (Some(a), Some(b)) = (self.dry_index(a)?, self.dry_index(b)?) else { return Err(wet) };
         let lower = a.min(b);
         let upper = a.max(b);
@@ -560,7 +560,7 @@ impl Painting {
         let used = [used_slots(&below.slots, &paint), used_slots(&above.slots, &over)];
         let (slots, places) = united(used[0], used[1]).map_err(|all| {
             let pigments = all.into_iter().map(|pigment| self.pigment_name(pigment)).collect();
-            PaintingError::MergedPigments { pigments }
+            PaintingError::MergedPigments(pigments)
         })?;
         let opacity = below.opacity.max(above.opacity);
         if opacity > 0.0 {
@@ -592,7 +592,7 @@ impl Painting {
             (None, _) => Ok(lower),
             (_, None) => Ok(upper - 1),
             (Some(index), Some(_)) => {
-                Err(PaintingError::FilmBetween { label: self.state.dry[index].label() })
+                Err(PaintingError::FilmBetween(self.state.dry[index].label()))
             }
         }
     }

@@ -103,7 +103,7 @@ impl Painting {
             return Err(PaintingError::NoMixture);
         }
         if let Some(slot) = (0..SLOTS).find(|&i| recipe[i] > 0.0 && self.state.slots[i].is_none()) {
-            return Err(PaintingError::EmptySlot { slot });
+            return Err(PaintingError::EmptySlot(slot));
         }
         let mut shares = [0.0; SLOTS + 1];
         // Clear vehicle alone needs no parts.

@@ -58,11 +58,8 @@ pub enum PaintingError {
         y_mm: f64,
     },
     /// A recipe has parts of a slot without pigment.
-    #[error("slot {slot} of the palette holds no pigment")]
-    EmptySlot {
-        /// Index of the slot, from 0.
-        slot: usize,
-    },
+    #[error("slot {0} of the palette holds no pigment")]
+    EmptySlot(usize),
     /// A brush cannot hold that much more paint.
     #[error("the brush has room for {most_mm:.2} mm of paint, found `{amount_mm}`")]
     #[hint("wipe or wash the brush first")]
@@ -73,39 +70,24 @@ pub enum PaintingError {
         most_mm: f64,
     },
     /// A pigment cannot leave the palette while it is wet on the canvas or on a brush.
-    #[error("{pigment} is still wet, so it cannot leave the palette")]
+    #[error("{0} is still wet, so it cannot leave the palette")]
     #[hint("dry the painting and wash the brushes first")]
-    StillWet {
-        /// Name of the pigment.
-        pigment: String,
-    },
+    StillWet(String),
     /// A layer would need more pigments than it has slots.
-    #[error("a layer holds 8 pigments, found `{found}`")]
+    #[error("a layer holds 8 pigments, found `{0}`")]
     #[hint("dry the painting, then go on with another palette")]
-    TooManyPigments {
-        /// Number of pigments.
-        found: usize,
-    },
+    TooManyPigments(usize),
     /// The layer does not contain the pigment.
-    #[error("the layer has no {pigment}")]
-    NotThere {
-        /// Name of the pigment.
-        pigment: String,
-    },
+    #[error("the layer has no {0}")]
+    NotThere(String),
     /// The layer contains the pigment already.
-    #[error("the layer has {pigment} already")]
+    #[error("the layer has {0} already")]
     #[hint("a layer holds each pigment once: choose one that it lacks")]
-    AlreadyThere {
-        /// Name of the pigment.
-        pigment: String,
-    },
+    AlreadyThere(String),
     /// The pigment is not on the palette now.
-    #[error("{pigment} is not on the palette now")]
+    #[error("{0} is not on the palette now")]
     #[hint("put it there with a palette action, or undo fewer actions")]
-    OffPalette {
-        /// Name of the pigment.
-        pigment: String,
-    },
+    OffPalette(String),
     /// The wet layer has no opacity.
     #[error("wet paint has no opacity of its own")]
     #[hint("dry it first")]
@@ -120,12 +102,9 @@ pub enum PaintingError {
         y: usize,
     },
     /// Only dry layers can be named, hidden, moved and merged.
-    #[error("wet paint lies on top of all layers and has no {what} of its own")]
+    #[error("wet paint lies on top of all layers and has no {0} of its own")]
     #[hint("dry it first")]
-    WetLayer {
-        /// Name of the property.
-        what: &'static str,
-    },
+    WetLayer(&'static str),
     /// One layer was named twice for a merge.
     #[error("a layer merges with another one, not with itself")]
     SameLayer,
@@ -138,24 +117,15 @@ pub enum PaintingError {
     #[hint("show both, or hide both")]
     UnlikeVisibility,
     /// A film between two layers to merge overlaps both.
-    #[error("`{label}` lies between the two layers and overlaps both")]
+    #[error("`{0}` lies between the two layers and overlaps both")]
     #[hint("move that layer above or below both, or merge it as well")]
-    FilmBetween {
-        /// Name of that layer.
-        label: String,
-    },
+    FilmBetween(String),
     /// Two layers together have more pigments than a layer holds.
-    #[error(
-        "a layer holds 8 pigments, these two have {}: {}",
-        pigments.len(), pigments.join(", ")
-    )]
+    #[error("a layer holds 8 pigments, these two have {}: {}", .0.len(), .0.join(", "))]
     #[hint(
         "keep them apart, or replace a pigment of one layer by one that the other layer also has"
     )]
-    MergedPigments {
-        /// Names of the pigments of both.
-        pigments: Vec<String>,
-    },
+    MergedPigments(Vec<String>),
     /// There is no dry layer with this index.
     #[error(
         "the painting has {}, counted from 0, found `{index}`",
@@ -201,12 +171,9 @@ pub enum PaintingError {
     #[error(transparent)]
     File(#[from] PaintingFileError),
     /// Canvas and palette do not go together.
-    #[error("canvas and palette have different {what}")]
+    #[error("canvas and palette have different {0}")]
     #[hint("set the palette up after the canvas")]
-    Unlike {
-        /// Name of what differs.
-        what: &'static str,
-    },
+    Unlike(&'static str),
     /// The action saves a file. Sessions do not write files, so you must save their documents.
     #[error("a session does not save files")]
     #[hint("save the documents of the session yourself")]
@@ -216,19 +183,13 @@ pub enum PaintingError {
     #[hint("set the brush down first")]
     NoStroke,
     /// An action other than light, gloss, stiffness and opacity was adjusted.
-    #[error("`{kind}` cannot be adjusted bit by bit")]
+    #[error("`{0}` cannot be adjusted bit by bit")]
     #[hint("light, gloss, stiffness and opacity can be")]
-    NoControl {
-        /// Key of the action in a script.
-        kind: &'static str,
-    },
+    NoControl(&'static str),
     /// The action needs a session: it uses brushes by name, undoes, or saves.
-    #[error("`{kind}` is an action of a session")]
+    #[error("`{0}` is an action of a session")]
     #[hint("apply it to the session of the painting")]
-    NoSession {
-        /// Key of the action in a script.
-        kind: &'static str,
-    },
+    NoSession(&'static str),
 }
 
 fn listed(known: &[String]) -> String {

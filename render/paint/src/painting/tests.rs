@@ -634,7 +634,7 @@ fn names_are_undone_and_checked() {
     let error = painting.apply(&named(id(1), "a\nb")).unwrap_err();
     assert!(error.to_string().starts_with("name: a name on one line"), "{error}");
     let error = painting.apply(&named(LayerRef::Wet, "wet")).unwrap_err();
-    assert!(matches!(error, PaintingError::WetLayer { .. }), "{error}");
+    assert!(matches!(error, PaintingError::WetLayer(..)), "{error}");
     let error = painting.apply(&named(id(7), "x")).unwrap_err().to_string();
     assert_eq!(error, "there is no layer 7; the painting has 1");
 }
@@ -750,7 +750,7 @@ fn more_pigments_than_a_layer_holds_are_named() {
     document.push_dry(others, slot_film(0, 100, Rect { x: 40, y: 3, width: 8, height: 8 }));
     let mut painting = opened(document);
     let error = painting.merge(id(2), id(1)).unwrap_err();
-    let PaintingError::MergedPigments { pigments } = &error else { panic!("{error}") };
+    let PaintingError::MergedPigments(pigments) = &error else { panic!("{error}") };
     let ninth = library[others[0].unwrap()].name.clone();
     // The tenth is on the palette of the second layer, but not in its paint.
     assert_eq!((pigments.len(), pigments.last()), (9, Some(&ninth)));

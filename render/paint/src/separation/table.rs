@@ -275,7 +275,7 @@ impl SeparationSettings {
 
     pub(super) fn check(&self) -> Result<(), SeparationError> {
         if !(5..=65).contains(&self.lattice) {
-            return Err(SeparationError::Lattice { lattice: self.lattice });
+            return Err(SeparationError::Lattice(self.lattice));
         }
         let range = self.least_mm > 0.0 && self.least_mm <= self.most_mm && self.most_mm <= 100.0;
         if !range {
@@ -295,12 +295,9 @@ pub enum SeparationError {
     #[hint("name pigments of the library, or none, to have them chosen")]
     NoPigment,
     /// The lattice is too coarse or too large.
-    #[error("a table has 5 to 65 points along each side, found `{lattice}`")]
+    #[error("a table has 5 to 65 points along each side, found `{0}`")]
     #[hint("25 points are usual")]
-    Lattice {
-        /// Points along each side.
-        lattice: usize,
-    },
+    Lattice(usize),
     /// The heights are not a valid range.
     #[error(
         "heights are two numbers above 0 and at most 100 mm, the smaller first, found `{least_mm}:{most_mm}`"

@@ -427,7 +427,7 @@ impl Control {
             Action::Gloss { .. } => Ok(Self::Gloss),
             Action::Stiffness { .. } => Ok(Self::Stiffness),
             Action::Opacity { layer, .. } => Ok(Self::Opacity(*layer)),
-            _ => Err(PaintingError::NoControl { kind: action.kind() }),
+            _ => Err(PaintingError::NoControl(action.kind())),
         }
     }
 }

@@ -94,7 +94,7 @@ impl PaintingSession {
     ) -> Result<Self, PaintingError> {
         let mut session = Self::new(canvas, palette)?;
         if kept.mask.as_ref().is_some_and(|mask| mask.bounds() != session.canvas.bounds()) {
-            return Err(PaintingError::Unlike { what: "masks" });
+            return Err(PaintingError::Unlike("masks"));
         }
         session.canvas.hold_mask(kept.mask)?;
         for surface in SurfaceId::ALL {
@@ -106,7 +106,7 @@ impl PaintingSession {
             used.sort_by_key(|(number, _)| *number);
             for (expected, (number, brush)) in used.into_iter().enumerate() {
                 if number != expected {
-                    return Err(PaintingError::Unlike { what: "brushes" });
+                    return Err(PaintingError::Unlike("brushes"));
                 }
                 let painting = session.surface_mut(surface)?;
                 painting.add_brush(brush.spec.shape, brush.spec.size_mm)?;
@@ -123,7 +123,7 @@ impl PaintingSession {
         if let (Some(id), Some(paint)) = (head.ids[head.at], head.paint.take()) {
             let painting = self.surface_mut(head.at)?;
             if (paint.width(), paint.height()) != painting.head(id).paint_grid() {
-                return Err(PaintingError::Unlike { what: "brushes" });
+                return Err(PaintingError::Unlike("brushes"));
             }
             painting.set_brush_paint(id, &paint)?;
         }
@@ -223,15 +223,9 @@ pub enum ReplayError<E: std::error::Error + 'static> {
         error: Box<PaintingError>,
     },
     /// A file cannot be saved.
-    #[error("action {index} (save)")]
-    #[hint(inner)]
-    Save {
-        /// Index of the action, from 0.
-        index: usize,
-        /// Error of the function that saves.
-        #[source]
-        error: E,
-    },
+    #[error("action {0} (save)")]
+    #[hint(inner = 1)]
+    Save(usize, #[source] E),
 }
 
 impl StrokeScript {
@@ -263,7 +257,7 @@ impl StrokeScript {
             if let Action::Save { path } = action {
                 session.finish_open().map_err(failed)?;
                 let canvas = session.canvas_mut();
-                save(path, canvas).map_err(|error| ReplayError::Save { index, error })?;
+                save(path, canvas).map_err(|error| ReplayError::Save(index, error))?;
             } else {
                 // Brushes are added when they are first used.
                 if let Some(name) = action.brush()

@@ -90,7 +90,7 @@ impl PaintingSession {
                 ("media", palette.medium() != canvas.medium()),
             ];
             if let Some((what, _)) = unlike.iter().find(|(_, unlike)| *unlike) {
-                return Err(PaintingError::Unlike { what });
+                return Err(PaintingError::Unlike(what));
             }
         }
         let own = PaletteSpec::from_names(pigment_names(&canvas.state().slots, canvas.library()));
@@ -130,15 +130,15 @@ impl PaintingSession {
         let cells = session.palette.as_ref().map(|palette| palette.bounds());
         let cells = cells.map(|bounds| (bounds.width, bounds.height));
         if cells != header.mixing.as_ref().map(|mixing| mixing.cells()) {
-            return Err(PaintingError::Unlike { what: "palettes than the script describes" });
+            return Err(PaintingError::Unlike("palettes than the script describes"));
         }
         let bare = header.start.is_none();
         let medium = header.medium.clone().unwrap_or_else(|| Medium::of(canvas.library()));
         if bare && medium != *canvas.medium() {
-            return Err(PaintingError::Unlike { what: "media than the script describes" });
+            return Err(PaintingError::Unlike("media than the script describes"));
         }
         if bare && header.lighting.clone().unwrap_or_default() != canvas.state().lighting {
-            return Err(PaintingError::Unlike { what: "lights than the script describes" });
+            return Err(PaintingError::Unlike("lights than the script describes"));
         }
         header.palette = PaletteSpec::from_names(pigment_names(&slots, canvas.library()));
         header.brushes.clear();

@@ -118,7 +118,7 @@ fn after_a_backend_failed_nothing_before_it_is_taken_back_out_of_order() {
     dab(&mut session);
     dab(&mut session);
     session.undo().unwrap();
-    let reason = DeviceError::NoAdapter { reason: "it burnt".to_owned() };
+    let reason = DeviceError::NoAdapter("it burnt".to_owned());
     let failed = session.follow_failure::<()>(Err(reason.into()));
     assert!(failed.is_err(), "the failure is not returned");
     assert_eq!(session.history(), (Vec::new(), 0));

@@ -241,7 +241,7 @@ fn files(folder: &Path) -> Vec<PathBuf> {
 fn remove(file: &Path) -> Result<(), PictureError> {
     match std::fs::remove_file(file) {
         Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-            Err(PictureError::Snapshot { file: file.display().to_string(), error })
+            Err(PictureError::Snapshot(file.display().to_string(), error))
         }
         _ => Ok(()),
     }

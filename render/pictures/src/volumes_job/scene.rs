@@ -66,7 +66,7 @@ impl OpenScript {
         Performance::new(&self.script, mesh, settings, &view).map_err(|error| match error {
             PerformanceError::World(_) => {
                 let subject = subject.display().to_string();
-                PictureError::Scene { subject, error: Box::new(error) }
+                PictureError::Scene(subject, Box::new(error))
             }
             error => self.located_event(error),
         })

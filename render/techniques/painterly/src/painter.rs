@@ -204,7 +204,7 @@ impl Painter {
             return Err(PainterError::Size { width, height });
         }
         if !seconds.is_finite() {
-            return Err(PainterError::Time { seconds });
+            return Err(PainterError::Time(seconds));
         }
         let clip_from_model = camera.clip_from_model(width as f32 / height as f32);
         if !clip_from_model.is_finite() || clip_from_model.determinant() == 0.0 {
@@ -577,12 +577,9 @@ pub enum PainterError {
         height: usize,
     },
     /// The time is not a number.
-    #[error("the time is `{seconds}` seconds")]
+    #[error("the time is `{0}` seconds")]
     #[hint("times are seconds from the start, for example 0.5")]
-    Time {
-        /// The time asked for.
-        seconds: f64,
-    },
+    Time(f64),
     /// The task was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

@@ -48,11 +48,8 @@ pub(crate) use stored;
 #[hint("leave the file out to start from the beginning")]
 pub enum SavedError {
     /// The file holds something else.
-    #[error("not a saved {kind}")]
-    Foreign {
-        /// Kind of state that was wanted.
-        kind: &'static str,
-    },
+    #[error("not a saved {0}")]
+    Foreign(&'static str),
     /// The file was written by another version.
     #[error("a saved {kind} of version {found}; this program reads version {read}")]
     Version {
@@ -213,7 +210,7 @@ pub(crate) fn state_of_file<'f>(
 ) -> Result<&'f [u8], SavedError> {
     let named = kind.format.len().min(file.len());
     if file[..named] != kind.format[..named] {
-        return Err(SavedError::Foreign { kind: kind.name });
+        return Err(SavedError::Foreign(kind.name));
     }
     let part = file.get(named..).and_then(<[u8]>::split_first_chunk);
     let (version, rest) = part.ok_or(SavedError::Damaged)?;
@@ -275,7 +272,7 @@ mod tests {
             changed[at] ^= 4;
             assert!(state_of_file(kind, &own, &changed).is_err(), "{at}");
         }
-        let foreign = SavedError::Foreign { kind: "test" };
+        let foreign = SavedError::Foreign("test");
         assert_eq!(state_of_file(kind, &own, b"a picture"), Err(foreign));
     }
 }

@@ -273,7 +273,7 @@ pub fn abstract_photograph(
 ) -> Result<AbstractedPhotograph, AbstractionError> {
     let radius_px = settings.smoothing_radius_px;
     if radius_px > RegionSettings::MAX_SMOOTHING_PX {
-        return Err(AbstractionError::Smoothing { found: radius_px });
+        return Err(AbstractionError::Smoothing(radius_px));
     }
     if width_px == 0 {
         return Err(AbstractionError::NoWidth);
@@ -306,15 +306,9 @@ pub enum AbstractionError {
     #[hint("give the width of the painting in pixels")]
     NoWidth,
     /// The structuring element is too large.
-    #[error(
-        "a smoothing radius is at most {} px, found `{found}`",
-        RegionSettings::MAX_SMOOTHING_PX
-    )]
+    #[error("a smoothing radius is at most {} px, found `{found}`", RegionSettings::MAX_SMOOTHING_PX, found = .0)]
     #[hint("3 px rounds the outlines of a photograph of 1 megapixel")]
-    Smoothing {
-        /// Its radius in pixels.
-        found: u32,
-    },
+    Smoothing(u32),
     /// A setting of the segmentation is out of its range.
     #[error(transparent)]
     #[fault(Setting)]

@@ -477,7 +477,7 @@ fn whiteness_and_tint_within_the_limits_and_none_beyond() {
             Err(WhitenessError::NotWhite { whiteness, .. }) => {
                 assert_near(&label, &[whiteness], &case.wanted[..1], golden.tolerance);
             }
-            Err(WhitenessError::Tinted { tint }) => {
+            Err(WhitenessError::Tinted(tint)) => {
                 assert_near(&label, &[tint], &case.wanted[1..], golden.tolerance);
             }
             Err(other) => panic!("{label}: {other}"),

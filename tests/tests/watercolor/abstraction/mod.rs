@@ -198,7 +198,7 @@ fn what_cannot_be_is_told() {
     };
     assert!(matches!(refusal(0, settings(1)), AbstractionError::NoWidth));
     let large = refusal(90, settings(500));
-    assert!(matches!(large, AbstractionError::Smoothing { found: 500 }), "{large}");
+    assert!(matches!(large, AbstractionError::Smoothing(500)), "{large}");
     let mut flat = settings(1);
     flat.segmentation.range_radius = -1.0;
     let error = refusal(90, flat);

@@ -172,11 +172,11 @@ fn settings_out_of_range_are_told() {
         };
         segment(&picture, &settings).unwrap_err()
     };
-    assert_eq!(with(0.5, 8.0), SegmentationError::SpatialRadius { found: 0.5 });
-    assert_eq!(with(300.0, 8.0), SegmentationError::SpatialRadius { found: 300.0 });
-    assert_eq!(with(5.0, 0.0), SegmentationError::RangeRadius { found: 0.0 });
-    assert!(matches!(with(5.0, f32::NAN), SegmentationError::RangeRadius { .. }));
-    assert!(matches!(with(f32::NAN, 5.0), SegmentationError::SpatialRadius { .. }));
+    assert_eq!(with(0.5, 8.0), SegmentationError::SpatialRadius(0.5));
+    assert_eq!(with(300.0, 8.0), SegmentationError::SpatialRadius(300.0));
+    assert_eq!(with(5.0, 0.0), SegmentationError::RangeRadius(0.0));
+    assert!(matches!(with(5.0, f32::NAN), SegmentationError::RangeRadius(..)));
+    assert!(matches!(with(f32::NAN, 5.0), SegmentationError::SpatialRadius(..)));
     assert!(with(0.5, 8.0).hint().unwrap().to_string().contains("width"));
 }
 

@@ -100,7 +100,7 @@ impl DirectionField {
         evidence: impl FnOnce(&Base<'_>) -> Evidence,
     ) -> Result<Self, DirectionFault> {
         if !(0.0..=1.0).contains(&settings.smoothing) {
-            return Err(DirectionFault::Smoothing { found: settings.smoothing });
+            return Err(DirectionFault::Smoothing(settings.smoothing));
         }
         let places = Places::of(mesh, settings.normal_rounds);
         let normals = places.normals.par_iter();

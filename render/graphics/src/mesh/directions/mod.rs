@@ -72,12 +72,9 @@ pub struct Guide {
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum DirectionFault {
     /// The smoothing is outside 0..1.
-    #[error("the smoothing of directions is `{found}`, not 0 to 1")]
+    #[error("the smoothing of directions is `{0}`, not 0 to 1")]
     #[hint("it is a share of the model's radius; 0.05 is usual")]
-    Smoothing {
-        /// The smoothing that you asked for.
-        found: f64,
-    },
+    Smoothing(f64),
     /// A guide refers to a vertex that does not exist.
     #[error("guide {guide} is at vertex {found}, of {vertices}")]
     #[hint("guides belong to one model: draw them again on this one")]

@@ -300,7 +300,7 @@ fn faults_of_settings_and_guides_are_named() {
         DirectionField::of_curvature(mesh, &settings, &[Guide { vertex, along }]).err()
     }
     for found in [-0.1, 1.1] {
-        assert_eq!(of(found, 0, [1.0; 3], &mesh), Some(DirectionFault::Smoothing { found }));
+        assert_eq!(of(found, 0, [1.0; 3], &mesh), Some(DirectionFault::Smoothing(found)));
     }
     assert!(of(f64::NAN, 0, [1.0; 3], &mesh).is_some());
     let vertices = mesh.positions.len();

@@ -50,7 +50,7 @@ impl Mesh {
         };
         let bytes = read(path).map_err(|error| {
             let error = std::io::Error::new(error.reason.kind(), error.reason.to_string());
-            MeshError::Unreadable { name: name.clone(), error }
+            MeshError::Unreadable(name.clone(), error)
         })?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let Some(reader) = by_ending.or_else(|| by_content(&bytes)) else {
@@ -58,7 +58,7 @@ impl Mesh {
         };
         let mut mesh = reader(&name, folder, &bytes)?;
         // Computing normals needs a valid mesh.
-        mesh.check().map_err(|fault| MeshError::Faulty { name, fault })?;
+        mesh.check().map_err(|fault| MeshError::Faulty(name, fault))?;
         mesh.complete_normals();
         Ok(mesh)
     }

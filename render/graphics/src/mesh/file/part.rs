@@ -78,16 +78,10 @@ impl Texture {
 #[derive(Debug, thiserror::Error, Explain)]
 pub enum MeshError {
     /// The file cannot be opened or read.
-    #[error("{name}: {error}")]
+    #[error("{0}: {1}")]
     #[hint("check the path")]
     #[fault(Environment)]
-    Unreadable {
-        /// Path of the file.
-        name: String,
-        /// Reason given by the system.
-        #[source]
-        error: std::io::Error,
-    },
+    Unreadable(String, #[source] std::io::Error),
     /// We do not support the format of this file extension.
     #[error("{name}: no file extension of a model: `{extension}`")]
     #[hint("models are read from .obj, .gltf, .glb and .ply files")]
@@ -123,15 +117,9 @@ pub enum MeshError {
         reason: String,
     },
     /// The file was read, but its mesh fails [`Mesh::check`](crate::mesh::Mesh::check).
-    #[error("{name}: {fault}")]
-    #[hint(inner = fault)]
-    Faulty {
-        /// Path of the file.
-        name: String,
-        /// The defect found.
-        #[source]
-        fault: MeshFault,
-    },
+    #[error("{0}: {1}")]
+    #[hint(inner = 1)]
+    Faulty(String, #[source] MeshFault),
 }
 
 #[cfg(test)]

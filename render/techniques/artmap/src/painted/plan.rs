@@ -145,7 +145,7 @@ impl Style {
     /// [`StyleError::Unknown`] if there is none.
     pub fn text(name: &str) -> Result<&'static str, StyleError> {
         let preset: Result<StylePreset, _> = name.parse();
-        preset.map(StylePreset::changes).map_err(|_| StyleError::Unknown { name: name.to_owned() })
+        preset.map(StylePreset::changes).map_err(|_| StyleError::Unknown(name.to_owned()))
     }
 
     /// Reads the TOML file of a style and checks it.
@@ -234,12 +234,9 @@ pub enum StyleError {
     #[fault(with = if matches!(_0, TextError::File(_)) { _0.fault() } else { Fault::Setting })]
     Text(#[from] TextError),
     /// No style that ships has this name.
-    #[error("there is no style called `{name}`")]
+    #[error("there is no style called `{0}`")]
     #[hint("choose [style] among {}", Style::ALL.join(", "))]
-    Unknown {
-        /// Name that was looked up.
-        name: String,
-    },
+    Unknown(String),
     /// A number is out of its range.
     #[error("style {style}: {key} is {least} to {most}, found `{value}`")]
     Number {

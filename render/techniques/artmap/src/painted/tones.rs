@@ -73,11 +73,11 @@ impl ToneLadder {
         margin: f64,
     ) -> Result<Self, TonesError> {
         if !TONES.contains(&count) {
-            return Err(TonesError::Count { found: count });
+            return Err(TonesError::Count(count));
         }
         let code: ColorCode = hue.parse()?;
         if library.amounts != AmountKind::Relative {
-            return Err(TonesError::Absolute { library: library.title.clone() });
+            return Err(TonesError::Absolute(library.title.clone()));
         }
         let viewing = Viewing::default();
         let palette = Palette::new(&library, &viewing, Cards::standard(library.grid))?;
@@ -210,8 +210,7 @@ fn pigments(palette: &Palette<'_>, hue: Lab) -> Result<Vec<PigmentId>, TonesErro
         ..MatchRequest::default()
     };
     let (_, recipe) = matched(&library.recipe_search(&options)?, hue)?;
-    let white =
-        palette.white().ok_or_else(|| TonesError::Absolute { library: library.title.clone() })?;
+    let white = palette.white().ok_or_else(|| TonesError::Absolute(library.title.clone()))?;
     let mut chosen: Vec<PigmentId> = recipe.pigments().chain([white, palette.black()]).collect();
     let mut darks: Vec<(f64, PigmentId)> = palette
         .paints()
@@ -303,20 +302,14 @@ pub enum TonesError {
     #[fault(Setting)]
     Hue(#[from] ColorCodeError),
     /// The number of tones is out of range.
-    #[error("a set has {} to {} tones, found `{found}`", TONES.start(), TONES.end())]
+    #[error("a set has {} to {} tones, found `{found}`", TONES.start(), TONES.end(), found = .0)]
     #[hint("leave [tones] out for 7 tones")]
-    Count {
-        /// Number of tones asked for.
-        found: usize,
-    },
+    Count(usize),
     /// The library holds washes, not paints that hide.
-    #[error("library {library} has absolute amounts: its paints have no white to be mixed with")]
+    #[error("library {0} has absolute amounts: its paints have no white to be mixed with")]
     #[hint("choose a library of relative amounts with [pigments]")]
     #[fault(Input)]
-    Absolute {
-        /// Title of the library.
-        library: String,
-    },
+    Absolute(String),
     /// The library has no pigment that can be mixed.
     #[error(transparent)]
     Palette(#[from] PaletteError),
@@ -401,13 +394,13 @@ mod tests {
             ToneLadder::new(Arc::clone(&library), hue, count, margin).unwrap_err()
         };
         assert!(matches!(refused("ochre", 7, 5.0), TonesError::Hue(_)));
-        assert!(matches!(refused("#c9a227", 1, 5.0), TonesError::Count { found: 1 }));
+        assert!(matches!(refused("#c9a227", 1, 5.0), TonesError::Count(1)));
         let narrow = refused("#c9a227", 7, 40.0);
         assert!(matches!(narrow, TonesError::Narrow { .. }), "{narrow}");
         assert!(narrow.hint().unwrap().to_string().contains("`hue`"));
         let mut washes = PigmentLibrary::van_gogh_oils();
         washes.amounts = AmountKind::Absolute;
         let error = ToneLadder::new(Arc::new(washes), "#c9a227", 7, 5.0).unwrap_err();
-        assert!(matches!(error, TonesError::Absolute { .. }));
+        assert!(matches!(error, TonesError::Absolute(..)));
     }
 }

@@ -266,7 +266,7 @@ mod tests {
             samples_of_picture(&picture, &marks, &PassageSettings::default())
         });
         let error = unmarked.unwrap_err();
-        assert!(matches!(error, PassageError::NoSpacing { .. }), "{error}");
+        assert!(matches!(error, PassageError::NoSpacing(..)), "{error}");
         assert!(marked.is_ok());
     }
 
@@ -309,7 +309,7 @@ mod tests {
         // A guess from the colours adds nothing to them.
         picture.guessed_relief = true;
         let error = samples_of_picture(&picture, &marks, &settings).unwrap_err();
-        assert!(matches!(error, PassageError::NoSpacing { .. }), "{error}");
+        assert!(matches!(error, PassageError::NoSpacing(..)), "{error}");
     }
 
     #[test]

@@ -171,18 +171,12 @@ pub enum PassageError {
         y: usize,
     },
     /// The distance between strokes cannot be estimated.
-    #[error(
-        "the distance between strokes cannot be seen in {}",
-        name_list(samples, MOST_NAMES, ", ")
-    )]
+    #[error("the distance between strokes cannot be seen in {}", name_list(.0, MOST_NAMES, ", "))]
     #[hint(
         "mark the middles of two neighbouring strokes: spacing = [[x, y], [x, y]], or give \
         one distance in pixels for all samples with [spacing]"
     )]
-    NoSpacing {
-        /// Names of the samples.
-        samples: Vec<String>,
-    },
+    NoSpacing(Vec<String>),
     /// A passage is too narrow for its spacing.
     #[error(
         "sample `{sample}` is {width_px:.0} px wide across its strokes, less than four times their \

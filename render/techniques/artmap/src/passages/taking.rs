@@ -53,7 +53,7 @@ pub fn samples_of_picture(
         }
     }
     if !without.is_empty() {
-        return Err(PassageError::NoSpacing { samples: without });
+        return Err(PassageError::NoSpacing(without));
     }
     let spacing = level(&mut reports, settings.density)?;
     reports.sort_by(|one, other| one.lightness.total_cmp(&other.lightness));

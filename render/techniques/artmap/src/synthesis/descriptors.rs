@@ -376,7 +376,7 @@ fn check_sample(
 ) -> Result<(), SynthesisError> {
     let name = sample.name.clone();
     if pyramid.last().is_none_or(Level::is_flat) {
-        return Err(SynthesisError::Flat { name });
+        return Err(SynthesisError::Flat(name));
     }
     let (width, height) = sample.size();
     for (index, (level, grid)) in pyramid.iter().zip(grids).enumerate() {

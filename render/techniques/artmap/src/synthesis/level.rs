@@ -402,12 +402,9 @@ pub enum SynthesisError {
         patch: usize,
     },
     /// A sample is of one colour, without any relief.
-    #[error("sample `{name}` is of one colour: it has no strokes")]
+    #[error("sample `{0}` is of one colour: it has no strokes")]
     #[hint("mark a passage whose strokes show")]
-    Flat {
-        /// Name of the sample.
-        name: String,
-    },
+    Flat(String),
 }
 
 /// Patches of one size at equal distances on a torus. They overlap by a third or more.

@@ -71,7 +71,7 @@ impl Guides {
             return Err(GuidesError::Camera { file: self.file.clone(), found });
         }
         if self.lines.is_empty() {
-            return Err(GuidesError::NoGuides { file: self.file.clone() });
+            return Err(GuidesError::NoGuides(self.file.clone()));
         }
         self.lines.iter().enumerate().try_for_each(|(index, line)| {
             check_line(line, self.size_px).map_err(|fault| self.fault(index, fault))
@@ -97,7 +97,7 @@ impl Guides {
 
 fn check_line(points: &[[f64; 2]], size_px: [u32; 2]) -> Result<(), GuideFault> {
     if points.len() < 2 {
-        return Err(GuideFault::FewPoints { found: points.len() });
+        return Err(GuideFault::FewPoints(points.len()));
     }
     for (&at, point) in points.iter().zip(1..) {
         if let Some(&value) = at.iter().find(|value| !value.is_finite()) {
@@ -149,12 +149,9 @@ pub enum GuidesError {
         found: [f32; 3],
     },
     /// There is no guide.
-    #[error("{file}: there are no guides")]
+    #[error("{0}: there are no guides")]
     #[hint(verbatim, "add a [[guide]] with points = [[10, 20], [90, 60]]")]
-    NoGuides {
-        /// Name of the file.
-        file: String,
-    },
+    NoGuides(String),
     /// A guide has a fault.
     #[error("{file}{}, guide {guide}: {fault}", line.map_or(String::new(), |at| format!(", line {at}")))]
     #[hint(verbatim, "{}", fault.way_out())]
@@ -174,11 +171,8 @@ pub enum GuidesError {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GuideFault {
     /// There are fewer than two points.
-    #[error("a line needs at least two points, found {found}")]
-    FewPoints {
-        /// Number of points.
-        found: usize,
-    },
+    #[error("a line needs at least two points, found {0}")]
+    FewPoints(usize),
     /// A number is infinite or NaN.
     #[error("point {point}: `{value}` is not a place in a picture")]
     NotFinite {
@@ -216,7 +210,7 @@ impl GuideFault {
 
     fn way_out(&self) -> &'static str {
         match self {
-            Self::FewPoints { .. } | Self::NoLength => {
+            Self::FewPoints(..) | Self::NoLength => {
                 "draw the line from where strokes come to where they go"
             }
             Self::NotFinite { .. } | Self::OffPicture { .. } => {

@@ -12,12 +12,9 @@ pub const MOST_SHELLS: usize = 63;
 #[hint("give tints that rise from 0 to 1, such as 0, 0.25, 0.5, 0.75, 1")]
 pub enum ShellError {
     /// There is no shell, or there are too many.
-    #[error("a volume has 1 to {MOST_SHELLS} shells, found `{found}`")]
+    #[error("a volume has 1 to {MOST_SHELLS} shells, found `{0}`")]
     #[hint("give one tint for outside and one for each shell")]
-    Count {
-        /// Number of shells.
-        found: usize,
-    },
+    Count(usize),
     /// The number of tints is not the number of shells plus 1.
     #[error(
         "{} {} tints, from outside to the core; found `{tints}`",
@@ -66,11 +63,8 @@ pub enum ShellError {
         found: f32,
     },
     /// The tint outside of all volumes is not 0.
-    #[error("the first tint, outside of all volumes, is 0, found `{found}`")]
-    Outside {
-        /// The tint that was given.
-        found: f32,
-    },
+    #[error("the first tint, outside of all volumes, is 0, found `{0}`")]
+    Outside(f32),
 }
 
 /// The share of colour at each count of volumes or shells that hold a point.
@@ -87,7 +81,7 @@ impl TintTable {
     /// within 0..1, or one falls below the one before.
     pub fn new(tints: Vec<f32>) -> Result<Self, ShellError> {
         if !(2..=MOST_SHELLS + 1).contains(&tints.len()) {
-            return Err(ShellError::Count { found: tints.len().saturating_sub(1) });
+            return Err(ShellError::Count(tints.len().saturating_sub(1)));
         }
         for (index, &found) in tints.iter().enumerate() {
             if !(0.0..=1.0).contains(&found) {
@@ -98,7 +92,7 @@ impl TintTable {
             }
         }
         if tints[0] != 0.0 {
-            return Err(ShellError::Outside { found: tints[0] });
+            return Err(ShellError::Outside(tints[0]));
         }
         Ok(Self { tints })
     }
@@ -142,7 +136,7 @@ impl Shells {
     /// range.
     pub fn new(scales: Vec<f32>, tints: Vec<f32>) -> Result<Self, ShellError> {
         if !(1..=MOST_SHELLS).contains(&scales.len()) {
-            return Err(ShellError::Count { found: scales.len() });
+            return Err(ShellError::Count(scales.len()));
         }
         if tints.len() != scales.len() + 1 {
             return Err(ShellError::Lengths { shells: scales.len(), tints: tints.len() });
@@ -208,15 +202,15 @@ mod tests {
         assert_eq!(scales(&[1.0, 0.0]), Err(ShellError::Scale { index: 1, found: 0.0 }));
         assert!(matches!(scales(&[f32::NAN, 0.5]), Err(ShellError::Scale { index: 0, .. })));
         assert_eq!(scales(&[1.0]), Err(ShellError::Lengths { shells: 1, tints: 3 }));
-        assert_eq!(scales(&[]), Err(ShellError::Count { found: 0 }));
+        assert_eq!(scales(&[]), Err(ShellError::Count(0)));
         fn tints(tints: &[f32]) -> Result<TintTable, ShellError> {
             TintTable::new(tints.to_vec())
         }
         assert_eq!(tints(&[0.0, 0.6, 0.5]), Err(ShellError::NotRising { index: 2, found: 0.5 }));
-        assert_eq!(tints(&[0.2, 0.6]), Err(ShellError::Outside { found: 0.2 }));
+        assert_eq!(tints(&[0.2, 0.6]), Err(ShellError::Outside(0.2)));
         assert_eq!(tints(&[0.0, 1.5]), Err(ShellError::Tint { index: 1, found: 1.5 }));
         assert!(matches!(tints(&[0.0, f32::NAN]), Err(ShellError::Tint { index: 1, .. })));
-        assert_eq!(tints(&[0.0]), Err(ShellError::Count { found: 0 }));
-        assert_eq!(tints(&[0.0; 65]), Err(ShellError::Count { found: 64 }));
+        assert_eq!(tints(&[0.0]), Err(ShellError::Count(0)));
+        assert_eq!(tints(&[0.0; 65]), Err(ShellError::Count(64)));
     }
 }

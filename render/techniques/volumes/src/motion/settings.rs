@@ -153,12 +153,9 @@ pub enum MotionError {
         must: &'static str,
     },
     /// The places that describe the surface are not finite.
-    #[error("place {index} of the surface is not finite")]
+    #[error("place {0} of the surface is not finite")]
     #[hint("repair the mesh: a vertex of it is not a number")]
-    Place {
-        /// Index of the place.
-        index: usize,
-    },
+    Place(usize),
     /// The look-up of the nearest place of the surface would be too large.
     #[error(
         "cells of {cell} make {blocks} blocks of the surface's box, more than {most}: cells of {fitting_cell} would fit"

@@ -45,7 +45,7 @@ impl SurfaceLattice {
     pub fn of(places: &[Vec3], cell: f32) -> Result<Self, MotionError> {
         in_range("cell", cell, f32::MIN_POSITIVE, f32::MAX)?;
         if let Some(index) = places.iter().position(|place| !place.is_finite()) {
-            return Err(MotionError::Place { index });
+            return Err(MotionError::Place(index));
         }
         let low = places.iter().copied().reduce(Vec3::min).unwrap_or_default();
         let high = places.iter().copied().reduce(Vec3::max).unwrap_or_default();
@@ -283,7 +283,7 @@ mod tests {
         assert!(SurfaceLattice::of(&places, fitting_cell).is_ok(), "{error}");
         assert!(SurfaceLattice::of(&places, 0.0).is_err());
         let error = SurfaceLattice::of(&[Vec3::NAN], 1.0).unwrap_err();
-        assert_eq!(error, MotionError::Place { index: 0 });
+        assert_eq!(error, MotionError::Place(0));
         assert_eq!(SurfaceLattice::of(&[], 1.0).unwrap().nearest(Vec3::ZERO), None);
     }
 }

@@ -33,7 +33,7 @@ impl Lattice {
     /// If the width is not above 0, or so small that the coordinates of cells have no room.
     pub fn around([low, high]: [Vec3; 2], cell: f32) -> Result<Self, WettingError> {
         if !(cell.is_finite() && cell > 0.0) {
-            return Err(WettingError::CellSize { found: cell });
+            return Err(WettingError::CellSize(cell));
         }
         let half = (high - low).max_element() / 2.0;
         if half / cell > FARTHEST {
@@ -94,20 +94,14 @@ pub enum WettingError {
     #[fault(Input)]
     Mesh(#[from] MeshFault),
     /// No triangle has an area, or the model is too large for its areas to be numbers.
-    #[error("the model has {triangles} triangles, but no area that paint could lie on")]
+    #[error("the model has {0} triangles, but no area that paint could lie on")]
     #[hint("export the model with its faces, at its real size")]
     #[fault(Input)]
-    NoArea {
-        /// Number of triangles.
-        triangles: usize,
-    },
+    NoArea(usize),
     /// The cells have no size.
-    #[error("cells of the grid are `{found}` wide")]
+    #[error("cells of the grid are `{0}` wide")]
     #[hint(verbatim, "grid.cell is a share above 0")]
-    CellSize {
-        /// Width of a cell, in the unit of the scene.
-        found: f32,
-    },
+    CellSize(f32),
     /// The grid would have too many cells.
     #[error("cells of {cell} are too small for this model: the grid has at most {MOST_CELLS}")]
     #[hint(verbatim, "cells of {fits} would fit")]
@@ -232,7 +226,7 @@ mod tests {
     fn cells_without_size_or_room_are_refused() {
         let bounds = [Vec3::ZERO, Vec3::ONE];
         for cell in [0.0, -1.0, f32::NAN, f32::INFINITY] {
-            assert!(matches!(Lattice::around(bounds, cell), Err(WettingError::CellSize { .. })));
+            assert!(matches!(Lattice::around(bounds, cell), Err(WettingError::CellSize(..))));
         }
         let Err(WettingError::TooManyCells { fits, .. }) = Lattice::around(bounds, 1e-9) else {
             panic!("cells of 1e-9 fit");

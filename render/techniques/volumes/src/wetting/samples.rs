@@ -56,12 +56,12 @@ impl SurfaceSamples {
         let bounds = mesh.bounds();
         let size = bounds[1] - bounds[0];
         if !size.is_finite() {
-            return Err(WettingError::NoArea { triangles });
+            return Err(WettingError::NoArea(triangles));
         }
         let areas: Vec<f64> = (0..triangles).map(|triangle| area(mesh, triangle)).collect();
         let whole: f64 = areas.iter().sum();
         if !(whole.is_finite() && whole > 0.0) {
-            return Err(WettingError::NoArea { triangles });
+            return Err(WettingError::NoArea(triangles));
         }
         let lattice = Lattice::around(bounds, cell)?;
         let flat_cells = whole / (f64::from(cell) * f64::from(cell));
@@ -362,7 +362,7 @@ mod tests {
         assert!(samples.triangles.iter().all(|&triangle| triangle == 1));
         let line = bare(&positions, &[[0, 1, 2]]);
         let refused = SurfaceSamples::of(&line, 0.25, SAMPLES_PER_CELL, 1);
-        assert_eq!(refused, Err(WettingError::NoArea { triangles: 1 }));
+        assert_eq!(refused, Err(WettingError::NoArea(1)));
         let points = bare(&positions, &[]);
         assert!(matches!(
             SurfaceSamples::of(&points, 0.25, SAMPLES_PER_CELL, 1),

@@ -252,7 +252,7 @@ mod tests {
         device.close();
         let mut on_device = DeviceSpilling::default();
         let found = on_device.step(&mut device, (&spilling, &grid), &mut paint, true);
-        assert!(matches!(found, Err(DeviceError::Lost { .. })), "{found:?}");
+        assert!(matches!(found, Err(DeviceError::Lost(..))), "{found:?}");
         assert!(paint == before);
     }
 }

@@ -24,7 +24,7 @@ impl Recipe {
         let sum: f64 = parts.iter().sum();
         let valid = parts.iter().all(|part| *part >= 0.0) && sum.is_finite() && sum > 0.0;
         if !valid {
-            return Err(WorldError::Recipe { found: parts.to_vec() });
+            return Err(WorldError::Recipe(parts.to_vec()));
         }
         Ok(Self { shares: parts.map(|part| part / sum) })
     }
@@ -194,7 +194,7 @@ mod tests {
     #[test]
     fn recipes_without_paint_are_refused() {
         for parts in [[0.0; 9], [-1.0; 9], [f64::NAN; 9], [f64::INFINITY; 9]] {
-            assert!(matches!(Recipe::of_parts(parts), Err(WorldError::Recipe { .. })));
+            assert!(matches!(Recipe::of_parts(parts), Err(WorldError::Recipe(..))));
         }
     }
 

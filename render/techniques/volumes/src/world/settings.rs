@@ -112,12 +112,9 @@ pub enum WorldError {
         found: f64,
     },
     /// A recipe without paint, or with a share below 0.
-    #[error("a recipe has shares of 0 or more and at least one above, found `{found:?}`")]
+    #[error("a recipe has shares of 0 or more and at least one above, found `{0:?}`")]
     #[hint("name a pigment with a share above 0")]
-    Recipe {
-        /// The shares: of eight slots, and at last of vehicle.
-        found: Vec<f64>,
-    },
+    Recipe(Vec<f64>),
     /// A place is too far from the surface.
     #[error("the place `{}, {}, {}` is {distance} from the surface, farther than {most}", place.x, place.y, place.z)]
     #[hint("pour at a place of the model's surface")]

@@ -111,12 +111,9 @@ pub enum MarksError {
     #[error(transparent)]
     Text(#[from] TextError),
     /// There is no sample.
-    #[error("{file}: there are no samples")]
+    #[error("{0}: there are no samples")]
     #[hint("add a sample with a name and a scribble, or let marks be proposed with [propose]")]
-    NoSamples {
-        /// Name of the file.
-        file: String,
-    },
+    NoSamples(String),
     /// A sample has a fault.
     #[error("{file}, sample `{sample}`, {key}: {fault}")]
     #[hint("{}", fault.way_out())]
@@ -168,20 +165,14 @@ pub enum MarkFault {
     #[error("another sample has this name")]
     RepeatedName,
     /// The sample has no area, or more than one.
-    #[error("a sample has one of scribble, rectangle and pixels, found {found}")]
-    Areas {
-        /// Number of areas.
-        found: usize,
-    },
+    #[error("a sample has one of scribble, rectangle and pixels, found {0}")]
+    Areas(usize),
     /// A line has no points.
     #[error("a line needs at least one point")]
     NoPoints,
     /// A number is infinite or NaN.
-    #[error("`{value}` is not a place in a picture")]
-    NotFinite {
-        /// The number.
-        value: f64,
-    },
+    #[error("`{0}` is not a place in a picture")]
+    NotFinite(f64),
     /// A rectangle has no pixels, or its numbers are not whole.
     #[error("[x, y, width, height] are whole numbers of pixels, width and height at least 1")]
     Rectangle,
@@ -216,9 +207,9 @@ impl MarkFault {
     fn way_out(&self) -> &'static str {
         match self {
             Self::NoName | Self::RepeatedName => "give each sample a name of its own",
-            Self::Areas { .. } => "a scribble grows to its passage, a rectangle is used as it is",
+            Self::Areas(..) => "a scribble grows to its passage, a rectangle is used as it is",
             Self::NoPoints => "draw the line over the middle of the passage",
-            Self::NotFinite { .. } | Self::OffPicture { .. } => {
+            Self::NotFinite(..) | Self::OffPicture { .. } => {
                 "places are [column, row] in pixels from the upper left corner"
             }
             Self::Rectangle => {

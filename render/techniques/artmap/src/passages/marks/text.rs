@@ -56,7 +56,7 @@ impl Marks {
     pub fn from_toml(file: &str, text: &str) -> Result<Self, MarksError> {
         let whole: FileOfMarks = Source::toml_with_hint(file, text, KEYS)?.typed()?;
         if whole.sample.is_empty() {
-            return Err(MarksError::NoSamples { file: file.to_owned() });
+            return Err(MarksError::NoSamples(file.to_owned()));
         }
         let mut samples: Vec<Mark> = Vec::new();
         for entry in whole.sample {
@@ -123,7 +123,7 @@ impl EntryOfSample {
             Some(area) if areas.is_empty() => area,
             last => {
                 let found = areas.len() + usize::from(last.is_some());
-                return Err(("scribble", MarkFault::Areas { found }));
+                return Err(("scribble", MarkFault::Areas(found)));
             }
         };
         let empty = match &area {
@@ -144,7 +144,7 @@ impl EntryOfSample {
 
 fn finite<'a>(mut values: impl Iterator<Item = &'a f64>) -> Result<(), MarkFault> {
     match values.find(|value| !value.is_finite()) {
-        Some(&value) => Err(MarkFault::NotFinite { value }),
+        Some(&value) => Err(MarkFault::NotFinite(value)),
         None => Ok(()),
     }
 }
@@ -198,7 +198,7 @@ impl Marks {
         let colors: Vec<&[([u8; 3], u32)]> = pixels.chunk_by(|a, b| a.0 == b.0).collect();
         let file = file.to_owned();
         if colors.is_empty() {
-            return Err(MarksError::NoSamples { file });
+            return Err(MarksError::NoSamples(file));
         }
         if colors.len() > MOST_COLORS || pixels.len() == lines.values().len() {
             return Err(MarksError::OverlayColors { file, colors: colors.len() });
@@ -243,7 +243,7 @@ impl Marks {
     /// [`MarksError`] if there are no samples, a place lies off the picture or two lines cross.
     pub(crate) fn drawn(&self, width: usize, height: usize) -> Result<Vec<DrawnArea>, MarksError> {
         if self.samples.is_empty() {
-            return Err(MarksError::NoSamples { file: self.file.clone() });
+            return Err(MarksError::NoSamples(self.file.clone()));
         }
         let lines = self.lines(width, height)?.into_iter();
         let areas = lines.zip(&self.samples).map(|(line, mark)| match line {
