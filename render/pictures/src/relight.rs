@@ -345,7 +345,7 @@ pub struct LayerOutcome {
     pub opacity: f64,
     /// Names of its pigments.
     pub pigments: Vec<String>,
-    /// What only dry layers have.
+    /// Values that only dry layers have.
     #[serde(flatten)]
     pub dry: Option<DryLayerOutcome>,
 }

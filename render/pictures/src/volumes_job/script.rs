@@ -48,7 +48,7 @@ pub(super) struct OpenScript {
     pub(super) camera_given: bool,
 }
 
-/// What the request gave to the script.
+/// A part of the script that the request gave.
 enum Given {
     Seconds,
     /// A pour, with its number among the pours of the request.
@@ -285,7 +285,7 @@ impl OpenScript {
         error.verbatim(hint).into()
     }
 
-    /// What the request gave, if the value at `key` is of it.
+    /// The part of the request that gave the value at `key`. `None` if the script has its own.
     fn given(&self, key: &KeyPath) -> Option<Given> {
         let (first, index) = match &key.0[..] {
             [KeyStep::Key(first), KeyStep::Index(index), ..] => (first, Some(*index)),
