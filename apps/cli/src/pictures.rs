@@ -1,5 +1,5 @@
-//! Options of the files of a picture or painting, and long work behind a bar with what you hear of it, e.g. the
-//! files that it writes. The names of the grounds that you paint a picture on are here too.
+//! Options for the files of a picture or painting. Also long work behind a progress bar, which prints each file and
+//! remark of the work, and the names of the grounds that you can paint on.
 
 use std::path::PathBuf;
 
@@ -98,8 +98,8 @@ impl Exports {
     }
 }
 
-/// Does long work behind a bar. Notes of the work are printed while the bar is hidden for a moment. If
-/// printing fails, the work ends early.
+/// Does long work behind a progress bar. If the work reports a note, we hide the bar for a moment and print the
+/// note. If printing fails, the work ends early.
 pub(crate) fn heard<T>(
     console: &mut Console<'_>,
     work: impl FnOnce(&Task, &mut Listener<'_>) -> Result<T>,
@@ -142,7 +142,7 @@ pub(crate) fn painted(
     heard(console, |task, listener| Ok(job.paint(compute, task, listener)?))
 }
 
-/// Words for a summary on the frames of an animation, e.g. `, 25 frames`. Empty without an animation.
+/// The part of a summary that is about the frames of an animation, e.g. `, 25 frames`. Empty without an animation.
 pub(crate) fn frames_text(outcome: &PictureOutcome) -> String {
     let Some(frames) = outcome.frames else { return String::new() };
     let found = match outcome.frames_found {

@@ -1,5 +1,5 @@
-//! The work of requests for samples of brushwork and maps of them: first all checks of files, then the work, then
-//! the files, each of them written whole.
+//! Runs requests for samples of brushwork and art maps. Each run first checks that its files can be written, then
+//! does the work, then writes the files, each as a whole.
 
 use std::{
     path::{Path, PathBuf},
@@ -37,7 +37,7 @@ use crate::artmap_request::{
 };
 use crate::brushwork::style_of;
 use crate::error::{PictureError, SettingError};
-use crate::exports::{Listener, Note, PX_MM, StageFolder, Written, gamut_remark, write};
+use crate::exports::{Listener, Note, PX_MM, StageFolder, Written, gamut_remark, opened, write};
 use crate::style::library_of;
 
 impl SampleRequest {
@@ -76,7 +76,7 @@ impl SampleRequest {
         self.run_heard(task, &mut |_| {})
     }
 
-    /// Does [`Self::run`]. Use this if you want to hear of each remark and each file when it happens.
+    /// Like [`Self::run`], but `listener` hears of each remark and each file when it happens.
     ///
     /// # Errors
     /// The errors of [`Self::run`].
@@ -85,11 +85,11 @@ impl SampleRequest {
         task: &Task,
         listener: &mut Listener<'_>,
     ) -> Result<SamplesOutcome, PictureError> {
-        let (outcome, written) = noted(listener, |listener| {
+        let (outcome, written) = collected(listener, |listener| {
             let inputs: Vec<PathBuf> =
                 [&self.painting].into_iter().chain(&self.marks).cloned().collect();
-            let files = FileAndSheet::open(&self.output, self.sheet.as_deref(), &inputs)?;
-            let marked = picture_output(self.marked.as_deref(), &inputs)?;
+            let files = FileAndSheet::open(&self.output, self.sheet.as_ref(), &inputs)?;
+            let marked = picture_output(self.marked.as_ref(), &inputs)?;
             refuse_same(&[Some(&files.file), files.sheet.as_ref(), marked.as_ref()])?;
             begin(task, "finding passages")?;
             let source = source(&self.painting, self.merge_minor, listener)?;
@@ -109,7 +109,7 @@ impl SampleRequest {
         Ok(SamplesOutcome { written, ..outcome })
     }
 
-    /// The marks of the file, or one of the whole picture.
+    /// The marks of the file. Without a file, this is one mark for the whole picture.
     fn read_marks(
         &self,
         size: (usize, usize),
@@ -135,7 +135,7 @@ impl SampleRequest {
         Ok(marks)
     }
 
-    /// Remarks on what deserves a look before the samples are used.
+    /// Reports what you should check before you use the samples.
     fn remark(&self, set: &SampleSet, reports: &[PassageReport], listener: &mut Listener<'_>) {
         for report in reports.iter().filter(|report| !report.direction.turned) {
             listener(Note::Remark(Remark::note(format!(
@@ -161,7 +161,7 @@ impl SampleRequest {
     }
 }
 
-/// Head of a file of proposed marks, for whoever edits it.
+/// Comments at the head of a file of proposed marks. They help you to edit it.
 const HEAD: &str = "\
 # Marks of samples, in pixels from the upper left corner of the picture.
 # scribble: points of a line over the passage, which grows from there.
@@ -172,8 +172,8 @@ const HEAD: &str = "\
 ";
 
 impl MarksRequest {
-    /// Looks for passages that have strokes and differ most, and writes marks of them. You can then edit the file
-    /// and name it in a [`SampleRequest`].
+    /// Looks for passages that have strokes and that differ most from each other, and writes marks for them. You
+    /// can then edit the file and name it in a [`SampleRequest`].
     ///
     /// # Errors
     /// [`PictureError`] for a setting out of its range, a picture without strokes, a file that cannot be read or
@@ -182,7 +182,7 @@ impl MarksRequest {
         self.run_heard(task, &mut |_| {})
     }
 
-    /// Does [`Self::run`]. Use this if you want to hear of each remark and each file when it happens.
+    /// Like [`Self::run`], but `listener` hears of each remark and each file when it happens.
     ///
     /// # Errors
     /// The errors of [`Self::run`].
@@ -191,7 +191,7 @@ impl MarksRequest {
         task: &Task,
         listener: &mut Listener<'_>,
     ) -> Result<MarksOutcome, PictureError> {
-        let (outcome, written) = noted(listener, |listener| self.propose(task, listener))?;
+        let (outcome, written) = collected(listener, |listener| self.propose(task, listener))?;
         Ok(MarksOutcome { written, ..outcome })
     }
 
@@ -206,7 +206,7 @@ impl MarksRequest {
         }
         let inputs = std::slice::from_ref(&self.painting);
         let output = Output::with_ending(&self.output, &["toml"], inputs)?;
-        let marked = picture_output(self.marked.as_deref(), inputs)?;
+        let marked = picture_output(self.marked.as_ref(), inputs)?;
         refuse_same(&[Some(&output), marked.as_ref()])?;
         begin(task, "looking for passages")?;
         let source = source(&self.painting, self.merge_minor, listener)?;
@@ -243,7 +243,8 @@ impl SwatchRequest {
         self.run_heard(task, &mut |_| {})
     }
 
-    /// Does [`Self::run`]. Use this if you want to hear of the library and of each file when it happens.
+    /// Like [`Self::run`], but `listener` hears of the library when it is read, and of each file when it is
+    /// written.
     ///
     /// # Errors
     /// The errors of [`Self::run`].
@@ -252,13 +253,17 @@ impl SwatchRequest {
         task: &Task,
         listener: &mut Listener<'_>,
     ) -> Result<SamplesOutcome, PictureError> {
-        let (outcome, written) = noted(listener, |listener| {
+        let (outcome, written) = collected(listener, |listener| {
             let (style, file) = style_of(&self.style)?;
             let library = Arc::new(library_of(self.library.as_deref(), listener)?);
             let inputs: Vec<PathBuf> = self.library.iter().cloned().chain(file).collect();
-            let files = FileAndSheet::open(&self.output, self.sheet.as_deref(), &inputs)?;
-            let Self { hue, tones, seed, .. } = self.clone();
-            let colors = PaintedSettings { library, hue, tones, seed };
+            let files = FileAndSheet::open(&self.output, self.sheet.as_ref(), &inputs)?;
+            let colors = PaintedSettings {
+                library,
+                hue: self.hue.clone(),
+                tones: self.tones,
+                seed: self.seed,
+            };
             let set = SwatchPainter::prepare(&colors, &style, task)?.paint((), task)?;
             files.write(sample::file::write(&set)?, || sheet(&set), listener)?;
             Ok(SamplesOutcome { style: Some(style.name), ..(&set).into() })
@@ -302,7 +307,7 @@ impl ArtMapRequest {
         self.run_heard(task, &mut |_| {})
     }
 
-    /// Does [`Self::run`]. Use this if you want to hear of each remark and each file when it happens.
+    /// Like [`Self::run`], but `listener` hears of each remark and each file when it happens.
     ///
     /// # Errors
     /// The errors of [`Self::run`].
@@ -311,8 +316,8 @@ impl ArtMapRequest {
         task: &Task,
         listener: &mut Listener<'_>,
     ) -> Result<ArtMapOutcome, PictureError> {
-        let (outcome, written) = noted(listener, |listener| {
-            let files = FileAndSheet::open(&self.output, self.sheet.as_deref(), &self.samples)?;
+        let (outcome, written) = collected(listener, |listener| {
+            let files = FileAndSheet::open(&self.output, self.sheet.as_ref(), &self.samples)?;
             let folder = self.stages.as_deref();
             let folder =
                 folder.map(|folder| StageFolder::open(folder, &self.samples)).transpose()?;
@@ -338,10 +343,10 @@ impl ArtMapRequest {
 }
 
 impl ArtMapCheckRequest {
-    /// Reads the map and measures it. Its faults are no error: you find them in the outcome.
+    /// Reads the map and measures it. A fault of the map is not an error: you find it in the outcome.
     ///
     /// # Errors
-    /// [`PictureError`] for a file that cannot be read or is no map, and if `task` is cancelled.
+    /// [`PictureError`] for a file that cannot be read or is not a map, and if `task` is cancelled.
     pub fn run(&self, task: &Task) -> Result<ArtMapOutcome, PictureError> {
         begin(task, "checking the map")?;
         Ok(ArtMapOutcome::from(&ArtMap::open(&self.map)?))
@@ -355,7 +360,7 @@ enum Content {
 }
 
 impl SheetRequest {
-    /// Reads the file, and draws the sheet if one is wanted.
+    /// Reads the file, and draws the sheet if you ask for one.
     ///
     /// # Errors
     /// [`PictureError`] for a file that cannot be read or holds neither samples nor a map, a sheet that cannot be
@@ -364,7 +369,7 @@ impl SheetRequest {
         self.run_heard(task, &mut |_| {})
     }
 
-    /// Does [`Self::run`]. Use this if you want to hear of the sheet when it is written.
+    /// Like [`Self::run`], but `listener` hears of the sheet when it is written.
     ///
     /// # Errors
     /// The errors of [`Self::run`].
@@ -373,8 +378,8 @@ impl SheetRequest {
         task: &Task,
         listener: &mut Listener<'_>,
     ) -> Result<BrushworkOutcome, PictureError> {
-        let (content, written) = noted(listener, |listener| {
-            let output = picture_output(self.sheet.as_deref(), std::slice::from_ref(&self.file))?;
+        let (content, written) = collected(listener, |listener| {
+            let output = picture_output(self.sheet.as_ref(), std::slice::from_ref(&self.file))?;
             begin(task, "reading brushwork")?;
             let content = self.content()?;
             if let Some(output) = output {
@@ -395,7 +400,7 @@ impl SheetRequest {
         })
     }
 
-    /// Reads the file. If it has another format, we say that it has no samples.
+    /// Reads the file. If it holds neither samples nor a map, the error says that it has no samples.
     fn content(&self) -> Result<Content, PictureError> {
         match SampleSet::open(&self.file) {
             Ok(set) => Ok(Content::Samples(set)),
@@ -408,14 +413,14 @@ impl SheetRequest {
     }
 }
 
-/// Reports that a stage begins, unless the work was asked to end.
+/// Reports that a stage begins. This fails if `task` is cancelled.
 fn begin(task: &Task, stage: &str) -> Result<(), PictureError> {
     task.stage(stage);
     Ok(task.check()?)
 }
 
-/// Does work with a listener that collects files and remarks before it passes them to `listener`.
-fn noted<T>(
+/// Does `work` and returns its result with the files and remarks that it reported. They also go to `listener`.
+fn collected<T>(
     listener: &mut Listener<'_>,
     work: impl FnOnce(&mut Listener<'_>) -> Result<T, PictureError>,
 ) -> Result<(T, Written), PictureError> {
@@ -424,7 +429,7 @@ fn noted<T>(
     Ok((done, written))
 }
 
-/// A file of samples or a map and its sheet, checked to be writable.
+/// The file of samples or of a map, and its sheet. We have checked that you can write them.
 struct FileAndSheet {
     file: Output,
     sheet: Option<Output>,
@@ -432,14 +437,18 @@ struct FileAndSheet {
 
 impl FileAndSheet {
     /// Checks, before long work, that both files can be written.
-    fn open(file: &Path, sheet: Option<&Path>, inputs: &[PathBuf]) -> Result<Self, PictureError> {
+    fn open(
+        file: &Path,
+        sheet: Option<&PathBuf>,
+        inputs: &[PathBuf],
+    ) -> Result<Self, PictureError> {
         let file = Output::with_ending(file, &["exr"], inputs)?;
         let sheet = picture_output(sheet, inputs)?;
         refuse_same(&[Some(&file), sheet.as_ref()])?;
         Ok(Self { file, sheet })
     }
 
-    /// Writes both files, once both are encoded. `sheet` draws the sheet if one is wanted.
+    /// Encodes both files, then writes them. This calls `sheet` to draw the sheet only if you ask for one.
     fn write(
         self,
         bytes: Vec<u8>,
@@ -455,12 +464,15 @@ impl FileAndSheet {
     }
 }
 
-/// Opens the output of a picture that is only looked at.
-fn picture_output(path: Option<&Path>, inputs: &[PathBuf]) -> Result<Option<Output>, PictureError> {
-    Ok(path.map(|path| Output::with_ending(path, &["png", "exr"], inputs)).transpose()?)
+/// The output of a picture that you only look at.
+fn picture_output(
+    path: Option<&PathBuf>,
+    inputs: &[PathBuf],
+) -> Result<Option<Output>, PictureError> {
+    opened(path, &["png", "exr"], inputs)
 }
 
-/// Encodes a picture of linear sRGB for `output`, with a remark on colours that it cannot hold.
+/// Encodes a picture of linear sRGB for `output`. The listener hears of colours that the file cannot hold.
 fn picture_bytes(
     picture: &Picture,
     output: &Output,
@@ -476,7 +488,7 @@ fn picture_bytes(
     Ok(file.bytes)
 }
 
-/// Draws the marks on the picture, if `output` wants that, and encodes it.
+/// Draws the marks on the picture and encodes it, if there is an `output`.
 fn marked_bytes(
     output: Option<Output>,
     source: &SourcePicture,
@@ -485,11 +497,11 @@ fn marked_bytes(
     listener: &mut Listener<'_>,
 ) -> Result<Option<(Vec<u8>, Output)>, PictureError> {
     let Some(output) = output else { return Ok(None) };
-    let shown = marked_picture(&source.color, marks, reports)?;
-    Ok(Some((picture_bytes(&shown, &output, listener)?, output)))
+    let marked = marked_picture(&source.color, marks, reports)?;
+    Ok(Some((picture_bytes(&marked, &output, listener)?, output)))
 }
 
-/// Writes a picture that was encoded for its output, if there is one.
+/// Writes an encoded picture to its output, if there is one.
 fn write_picture(
     picture: Option<(Vec<u8>, Output)>,
     listener: &mut Listener<'_>,
@@ -497,7 +509,7 @@ fn write_picture(
     picture.map_or(Ok(()), |(bytes, output)| write(&output, bytes, listener))
 }
 
-/// Writes the steps of a synthesis, numbered from 1.
+/// Writes the stages of a synthesis, numbered from 1.
 fn write_stages(
     folder: &StageFolder,
     stages: &[Stage],
@@ -516,8 +528,8 @@ fn file_name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
-/// Reads the picture at `path`. A painting (.exr) keeps its paint and relief. With `merge_minor`,
-/// pigments below 1 % count as others if there are more than eight.
+/// Reads the picture at `path`. A painting (.exr) keeps its paint and relief. If it has more than eight
+/// pigments and `merge_minor` is set, each pigment below 1 % counts as another one.
 fn source(
     path: &Path,
     merge_minor: bool,
@@ -612,12 +624,12 @@ mod tests {
             guess_relief: Some(0.2),
             ..sample(&folder)
         };
-        let mut heard = Written::default();
-        let mut listener = |note| heard.pass(note, &mut |_| {});
+        let mut collected = Written::default();
+        let mut listener = |note| collected.pass(note, &mut |_| {});
         let outcome = request.run_heard(&Task::default(), &mut listener).unwrap();
         let files = ["samples.exr", "sheet.png", "marked.png"].map(file);
         assert_eq!(outcome.written.files, files);
-        assert_eq!(heard, outcome.written);
+        assert_eq!(collected, outcome.written);
         let json = serde_json::to_value(&outcome).unwrap();
         let keys: Vec<&String> = json.as_object().unwrap().keys().collect();
         assert_eq!(keys, ["provenance", "spacing", "pigments", "samples"]);

@@ -1,4 +1,4 @@
-//! Samples of brushwork and maps of them in figures, as programs print them and write them as JSON.
+//! Outcomes of requests for samples of brushwork and art maps: figures to print, or to write as JSON.
 
 use artmap::{
     map::{ArtMap, MapFault, MapFigures},
@@ -11,14 +11,14 @@ use spectra::color::Rgb;
 
 use crate::exports::Written;
 
-/// Samples that were taken, painted or read. As JSON it has neither `style` nor `written`.
+/// Samples that were taken, painted or read. The JSON leaves out `style` and `written`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SamplesOutcome {
     /// Where the samples come from, in words.
     pub provenance: String,
-    /// Distance of neighbouring strokes in texels. `None` without samples.
+    /// Distance between neighbouring strokes in texels. `None` if there are no samples.
     pub spacing: Option<f64>,
-    /// Names of the pigments of their paint, empty for colours alone.
+    /// Names of the pigments of their paint. Empty if the samples have only colours.
     pub pigments: Vec<String>,
     /// The samples from dark to light.
     pub samples: Vec<SampleFigures>,
@@ -45,7 +45,7 @@ pub struct SampleFigures {
     pub colour: String,
     /// Side of a texel in mm, where it is known.
     pub mm_per_texel: Option<f64>,
-    /// Height of the paint. `None` without relief.
+    /// Height of the paint. `None` if the sample has no relief.
     pub height_mm: Option<HeightFigures>,
     /// Whether the height was guessed.
     pub guessed_relief: bool,
@@ -74,13 +74,13 @@ pub struct PassageFigures {
     pub regions_under: usize,
     /// Direction of the strokes.
     pub direction: DirectionFigures,
-    /// Distance of neighbouring strokes in pixels of the picture.
+    /// Distance between neighbouring strokes in pixels of the picture.
     pub spacing_px: f64,
     /// Where this distance comes from: `marked`, `set` or `estimated`.
     pub spacing_source: &'static str,
-    /// How clear an estimated distance is, 0.1 to 2.
+    /// How clear an estimated distance is, 0.1 to 2. `None` if the distance is not estimated.
     pub sharpness: Option<f64>,
-    /// Where we saw the distance, if it is estimated.
+    /// Where we saw the strokes, if their distance is estimated.
     pub spacing_seen_in: Option<StrokesSeen>,
     /// Texels of the sample per pixel of the picture, across and along the strokes.
     pub scale: [f64; 2],
@@ -95,12 +95,12 @@ pub struct DirectionFigures {
     pub coherence: f64,
     /// Whether the passage was turned until its strokes run along y.
     pub turned: bool,
-    /// Where we saw the direction.
+    /// Where we saw the strokes.
     pub seen_in: StrokesSeen,
 }
 
 impl SamplesOutcome {
-    /// The figures of samples that were taken from a picture, with a report of each.
+    /// The figures of samples that were taken from a picture. There is one report for each sample.
     pub(crate) fn of_passages(set: &SampleSet, reports: &[PassageReport]) -> Self {
         let mut outcome = Self::from(set);
         for (sample, report) in outcome.samples.iter_mut().zip(reports) {
@@ -180,17 +180,17 @@ impl From<&PassageReport> for PassageFigures {
     }
 }
 
-/// Names of the pigments of samples or of a map, empty without paint.
+/// Names of the pigments of samples or of a map. Empty if they have no paint.
 fn names_of(paint: Option<&PaintOfSamples>) -> Vec<String> {
     paint.map(PaintOfSamples::pigment_names).unwrap_or_default()
 }
 
-/// Marks that were proposed for a picture. As JSON it has no `written`.
+/// Marks that were proposed for a picture. The JSON leaves out `written`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MarksOutcome {
     /// Name of the file of the picture.
     pub painting: String,
-    /// The marks, from the best passage on.
+    /// The marks. The best passage is first.
     pub samples: Vec<MarkFigures>,
     /// Names of the samples for which you have to mark the distance between strokes, because it cannot be
     /// estimated.
@@ -205,7 +205,7 @@ pub struct MarksOutcome {
 pub struct MarkFigures {
     /// Name of the sample.
     pub name: String,
-    /// Points of a line over the passage, in pixels. Marks of other areas have none.
+    /// Points of a line over the passage, in pixels. Empty if the mark is not a line.
     pub scribble: Vec<[f64; 2]>,
 }
 
@@ -219,20 +219,20 @@ impl From<&Mark> for MarkFigures {
     }
 }
 
-/// A map that was made or read. As JSON it has no `written`.
+/// A map that was made or read. The JSON leaves out `written`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ArtMapOutcome {
     /// Where its samples come from, in words.
     pub provenance: String,
     /// Width and height of the tiles in texels.
     pub size: usize,
-    /// Distance of neighbouring strokes in texels.
+    /// Distance between neighbouring strokes in texels.
     pub spacing: f64,
     /// Side of a texel in mm, where it is known.
     pub mm_per_texel: Option<f64>,
     /// Whether heights are a guess.
     pub guessed_relief: bool,
-    /// Names of the pigments of its paint, empty for colours alone.
+    /// Names of the pigments of its paint. Empty if the map has only colours.
     pub pigments: Vec<String>,
     /// Name of the tile that was made first.
     pub first: String,
@@ -244,7 +244,7 @@ pub struct ArtMapOutcome {
     pub settings: SynthesisSettings,
     /// The tiles from dark to light.
     pub tiles: Vec<TileFigures>,
-    /// Faults of the map, empty for a good one. In JSON these are sentences.
+    /// Faults of the map. Empty for a good map. The JSON holds them as sentences.
     #[serde(serialize_with = "sentences")]
     pub faults: Vec<MapFault>,
     /// Files that were written, and remarks.
@@ -267,7 +267,8 @@ pub struct TileFigures {
     pub coherence: f64,
     /// Correlation of its strokes with the neighbouring tile on the side of the first tile, -1 to 1.
     pub neighbour_coherence: f64,
-    /// Steps of lightness where copies of the tile meet over the steps inside it. At 1 no seam shows.
+    /// Steps of lightness where copies of the tile meet, divided by the steps inside the tile. At 1 you see no
+    /// seam.
     pub border: f64,
     /// Whether this tile was made first. The others follow it.
     #[serde(skip)]

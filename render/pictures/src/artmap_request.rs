@@ -1,7 +1,7 @@
-//! Samples of brushwork and maps of them as requests: marks to propose, samples to take from a picture or to
-//! paint, maps to make, and files to look at.
+//! Requests for samples of brushwork and for art maps. With them you propose marks, take samples from a picture,
+//! paint samples, make or check a map, or look at a file.
 //!
-//! Comments of the fields are the descriptions of the schema.
+//! The comments of the fields are also their descriptions in the schema.
 
 use std::path::PathBuf;
 
@@ -79,7 +79,7 @@ pub struct SampleRequest {
 pub struct MarksRequest {
     /// A picture (.png, .jpg, .tif, .webp), or a painting of impasto (.exr)
     pub painting: PathBuf,
-    /// Most marks that are proposed, 1 to 64
+    /// Largest number of marks to propose, 1 to 64
     pub count: usize,
     /// Write the marks (.toml)
     pub output: PathBuf,
@@ -125,8 +125,8 @@ pub struct SwatchRequest {
     pub sheet: Option<PathBuf>,
 }
 
-/// A map to make of samples: one tile of each, from dark to light, that repeats without seams. [`Self::run`] makes
-/// it and writes its file.
+/// A map to make of samples. It has one tile for each sample, from dark to light, and each tile repeats without
+/// seams. [`Self::run`] makes the map and writes its file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(description = "An art map to make of samples")]
@@ -206,7 +206,7 @@ impl SampleRequest {
 }
 
 impl MarksRequest {
-    /// Most marks that can be proposed.
+    /// Largest number of marks that you can ask for.
     pub const MOST: usize = 64;
 
     /// The settings by which passages are found.
@@ -269,7 +269,7 @@ mod tests {
     use documents::request::request_from_json;
     use serde::de::DeserializeOwned;
 
-    fn back<T: DeserializeOwned + Serialize + PartialEq + std::fmt::Debug>(json: &str) -> T {
+    fn round_trip<T: DeserializeOwned + Serialize + PartialEq + std::fmt::Debug>(json: &str) -> T {
         let request: T = request_from_json(json).unwrap();
         let text = serde_json::to_string(&request).unwrap();
         assert_eq!(request_from_json::<T>(&text).unwrap(), request, "{text}");
@@ -279,26 +279,27 @@ mod tests {
     #[test]
     fn requests_are_the_same_after_json_and_have_the_usual_defaults() {
         let sample: SampleRequest =
-            back(r#"{"painting": "a.png", "output": "s.exr", "over": "mean-shift"}"#);
+            round_trip(r#"{"painting": "a.png", "output": "s.exr", "over": "mean-shift"}"#);
         let usual = PassageSettings::default();
         let over = OverSegmentation::MeanShift;
         assert_eq!(sample.settings(), PassageSettings { over, ..usual });
         let marks: MarksRequest =
-            back(r#"{"painting": "a.png", "count": 3, "output": "m.toml", "marked": null}"#);
+            round_trip(r#"{"painting": "a.png", "count": 3, "output": "m.toml", "marked": null}"#);
         assert_eq!(marks.settings(), usual);
-        let swatch: SwatchRequest = back(r#"{"style": "dabs", "output": "s.exr"}"#);
+        let swatch: SwatchRequest = round_trip(r#"{"style": "dabs", "output": "s.exr"}"#);
         let colors = PaintedSettings::default();
         assert_eq!(
             (swatch.hue, swatch.tones, swatch.seed),
             (colors.hue, colors.tones, colors.seed)
         );
-        let map: ArtMapRequest =
-            back(r#"{"samples": ["s.exr"], "output": "m.exr", "features": "paper", "seed": 7}"#);
+        let map: ArtMapRequest = round_trip(
+            r#"{"samples": ["s.exr"], "output": "m.exr", "features": "paper", "seed": 7}"#,
+        );
         let features = Features::Paper;
         let settings = SynthesisSettings { features, seed: 7, ..SynthesisSettings::default() };
         assert_eq!(map.settings(), settings);
-        back::<ArtMapCheckRequest>(r#"{"map": "m.exr"}"#);
-        let sheet: SheetRequest = back(r#"{"file": "m.exr", "between": "blend"}"#);
+        round_trip::<ArtMapCheckRequest>(r#"{"map": "m.exr"}"#);
+        let sheet: SheetRequest = round_trip(r#"{"file": "m.exr", "between": "blend"}"#);
         assert_eq!(sheet.between, Between::Blend);
     }
 

@@ -50,7 +50,7 @@ use watercolor::WatercolorError;
 /// calls [`Self::message`].
 #[derive(Debug)]
 pub struct SettingError {
-    /// The settings with which the message begins: usually one, or those that can be at fault.
+    /// The settings with which the message begins. Usually this is one, else all that can be at fault.
     keys: Vec<String>,
     /// The rest of the message.
     reason: Hint,

@@ -14,6 +14,7 @@ use graphics::{
     field::Field,
 };
 use paint::{
+    engine::{OpenedEngine, PaintEngine},
     export::{PaintingExports, SpectralBands},
     painting::Painting,
     scene::PixelsPerCell,
@@ -392,6 +393,17 @@ pub fn gamut_remark(path: &Path, outside: OutsideGamut) -> Remark {
     Remark { hint: outside.hint(), ..remark }
 }
 
+/// The engine that was opened. If it paints on the processor because a device cannot hold the canvas, the listener
+/// hears a warning.
+pub(crate) fn engine_of(opened: OpenedEngine, listener: &mut Listener<'_>) -> PaintEngine {
+    let OpenedEngine { engine, device_error } = opened;
+    if let Some(error) = device_error {
+        let text = format!("{error}; painting on the processor");
+        listener(Note::Remark(Remark::warning(text)));
+    }
+    engine
+}
+
 /// Width of a pixel in mm, for pictures that are only looked at: 96 pixels per inch.
 pub const PX_MM: f64 = 25.4 / 96.0;
 
@@ -446,7 +458,7 @@ fn stage_name(number: usize, name: &str) -> String {
     format!("{number:02}-{name}.png")
 }
 
-/// A folder that all frames can be written to, each as a file of its own.
+/// A folder for frames, each as its own file. We have checked that you can write all of them.
 #[derive(Debug)]
 pub(crate) struct FrameFolder {
     folder: OutputFolder,
@@ -455,8 +467,8 @@ pub(crate) struct FrameFolder {
 }
 
 impl FrameFolder {
-    /// Checks that the frames can be written, and that the folder has none beyond them, which would be
-    /// of another animation.
+    /// Checks that the frames can be written, and that the folder has no frame with a higher number. Such
+    /// a frame would belong to another animation.
     pub(crate) fn open(
         folder: &Path,
         ending: &'static str,
@@ -474,7 +486,7 @@ impl FrameFolder {
         Ok(Self { folder, ending, frames })
     }
 
-    /// Writes the frames in order, each whole. The folder is made when the first is ready.
+    /// Writes the frames in order, each as a whole. We make the folder when the first frame is ready.
     pub(crate) fn write(
         self,
         task: &Task,
@@ -493,7 +505,7 @@ impl FrameFolder {
 }
 
 /// Name of the file of a frame. Indices count from 0, names from 1.
-fn frame_name(index: usize, ending: &str) -> String {
+pub(crate) fn frame_name(index: usize, ending: &str) -> String {
     format!("frame-{:04}.{ending}", index + 1)
 }
 

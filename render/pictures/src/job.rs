@@ -71,19 +71,19 @@ impl PictureRequest {
         listener: &mut Listener<'_>,
     ) -> Result<PictureJob, PictureError> {
         let mut written = Written::default();
-        let mut kept = |note: Note| written.pass(note, listener);
+        let mut collect = |note: Note| written.pass(note, listener);
         let work = match &self.technique {
             TechniqueRequest::Watercolor(own) => {
-                Work::Watercolor(Box::new(WatercolorJob::open(self, own, &mut kept)?))
+                Work::Watercolor(Box::new(WatercolorJob::open(self, own, &mut collect)?))
             }
             TechniqueRequest::Painterly(own) => {
-                Work::Painterly(Box::new(PainterlyJob::open(self, own, task, &mut kept)?))
+                Work::Painterly(Box::new(PainterlyJob::open(self, own, task, &mut collect)?))
             }
             TechniqueRequest::Strokes(own) => {
-                Work::Strokes(Box::new(StrokesJob::open(self, own, task, &mut kept)?))
+                Work::Strokes(Box::new(StrokesJob::open(self, own, task, &mut collect)?))
             }
             TechniqueRequest::Volumes(own) => {
-                Work::Volumes(Box::new(VolumesJob::open(self, own, &mut kept)?))
+                Work::Volumes(Box::new(VolumesJob::open(self, own, &mut collect)?))
             }
         };
         let device = match &work {
@@ -112,12 +112,12 @@ impl PictureJob {
         listener: &mut Listener<'_>,
     ) -> Result<PictureOutcome, PictureError> {
         let Self { work, mut written, .. } = self;
-        let mut kept = |note: Note| written.pass(note, listener);
+        let mut collect = |note: Note| written.pass(note, listener);
         let summary = match work {
-            Work::Watercolor(job) => job.paint(compute, task, &mut kept)?,
-            Work::Painterly(job) => job.paint(compute, task, &mut kept)?,
-            Work::Strokes(job) => job.paint(compute, task, &mut kept)?,
-            Work::Volumes(job) => job.paint(compute, task, &mut kept)?,
+            Work::Watercolor(job) => job.paint(compute, task, &mut collect)?,
+            Work::Painterly(job) => job.paint(compute, task, &mut collect)?,
+            Work::Strokes(job) => job.paint(compute, task, &mut collect)?,
+            Work::Volumes(job) => job.paint(compute, task, &mut collect)?,
         };
         Ok(PictureOutcome {
             size: summary.size,

@@ -42,10 +42,10 @@
 //! | write the files of a painting | [`ExportRequest::open`] |
 //! | frames that an interrupted run continues | [`AnimationRequest::open`] |
 //! | a subject with its cameras | [`ViewRequest::subject`] |
-//! | a photograph in strokes, or separated into pigments | [`StrokesRequest`] |
-//! | samples of brushwork: marks proposed, taken from a picture, or painted | [`MarksRequest`], [`SampleRequest`], [`SwatchRequest`] |
-//! | a map of samples, made, checked or drawn | [`ArtMapRequest`], [`ArtMapCheckRequest`], [`SheetRequest`] |
-//! | paint volumes over a model or photograph | [`VolumesRequest`] |
+//! | paint a photograph in strokes, or separate it into pigments | [`StrokesRequest`] |
+//! | propose marks for samples of brushwork, take samples from a picture, or paint them | [`MarksRequest`], [`SampleRequest`], [`SwatchRequest`] |
+//! | make, check or draw a map of samples | [`ArtMapRequest`], [`ArtMapCheckRequest`], [`SheetRequest`] |
+//! | pour paint over a model or photograph | [`VolumesRequest`] |
 //!
 //! Modules are ordered by dependence: each uses only modules declared above it.
 

@@ -1,14 +1,12 @@
-//! A stored painting under another light or with other pigments: the request, its job, and the layers that come
-//! out.
+//! A stored painting under another light or with other pigments: the request, its job and its outcome.
 
 use std::path::PathBuf;
 
-use calibrate::Remark;
 use documents::Task;
 use graphics::field::Field;
 use paint::{
     document::{Document, Lighting},
-    engine::{OpenedEngine, PaintEngine},
+    engine::PaintEngine,
     layer::{DryLayerState, LayerRef},
     light::Light,
     painting::{Painting, UNDO_BYTES},
@@ -18,10 +16,11 @@ use serde::{Deserialize, Serialize};
 use spectra::Viewing;
 
 use crate::error::{PictureError, SettingError};
-use crate::exports::{ExportRequest, Listener, Note, OpenExports, Written};
+use crate::exports::{ExportRequest, Listener, OpenExports, Written, engine_of};
 use crate::request::Device;
 
-/// A stored painting to show under another light, or as if painted with other pigments. [`Self::run`] shows it.
+/// A stored painting to show under another light, or as if painted with other pigments. [`Self::run`] lights it and
+/// writes its files.
 ///
 /// All keys but `painting` have defaults. Without them you see the painting as it was saved. As JSON:
 ///
@@ -152,7 +151,7 @@ impl RelightRequest {
         Ok(RelightJob { document, light, swap, opacity, exports, undo_bytes, written })
     }
 
-    /// Lighting of the painting with the keys of the request in place of the `saved` values.
+    /// The lighting that the request asks for. Without a key, this is the `saved` value of the painting.
     fn lighting(&self, saved: &Lighting) -> Result<Lighting, SettingError> {
         Ok(Lighting {
             illuminant: self.illuminant.clone().unwrap_or_else(|| saved.illuminant.clone()),
@@ -180,35 +179,30 @@ pub(crate) fn undo_bytes(mebibytes: u64) -> Result<u64, SettingError> {
     Ok(mebibytes << 20)
 }
 
-/// A paint engine over the ground heights `floor`. With [`Device::Auto`] the processor takes the place of a device
-/// that cannot hold the canvas, and the listener hears a warning.
+/// Opens a paint engine over the ground heights `floor`. If a device cannot hold the canvas, [`Device::Auto`] takes
+/// the processor instead, and the listener hears a warning.
 pub(crate) fn opened_engine(
     device: Device,
     floor: &Field<i32>,
     listener: &mut Listener<'_>,
 ) -> Result<PaintEngine, PictureError> {
-    let OpenedEngine { engine, device_error } = PaintEngine::open(device.into(), floor)?;
-    if let Some(error) = device_error {
-        let text = format!("{error}; painting on the processor");
-        listener(Note::Remark(Remark::warning(text)));
-    }
-    Ok(engine)
+    Ok(engine_of(PaintEngine::open(device.into(), floor)?, listener))
 }
 
-/// Number of the key `name`, or the saved one without it.
+/// The number of the key `name`, or the number `saved` if the request does not have this key.
 fn number(
     name: &str,
-    given: Option<f64>,
+    requested: Option<f64>,
     saved: f64,
     [least, most]: [f64; 2],
 ) -> Result<f64, SettingError> {
-    match given {
+    match requested {
         Some(value) if !(least..=most).contains(&value) => {
             let reason = format!("takes {least} to {most}, found `{value}`");
             let hint = format!("leave [{name}] out to keep the painting's own value");
             Err(SettingError::of(name, reason, hint))
         }
-        given => Ok(given.unwrap_or(saved)),
+        requested => Ok(requested.unwrap_or(saved)),
     }
 }
 
@@ -225,7 +219,7 @@ pub struct RelightJob {
 }
 
 impl RelightJob {
-    /// Heights of the ground in quanta, over which you open the engine.
+    /// Heights of the ground in quanta. Open the engine over these.
     #[must_use]
     pub fn floor(&self) -> &Field<i32> {
         &self.document.ground.height
@@ -269,7 +263,7 @@ fn exchange(painting: &mut Painting, text: &str) -> Result<(), PictureError> {
         .split_once(':')
         .and_then(|(layer, names)| names.split_once('=').map(|(from, to)| (layer, from, to)))
     else {
-        return Err(not_a_swap(text).into());
+        return Err(swap_error(text).into());
     };
     let from = painting.library().find(from)?;
     let to = painting.library().find(to)?;
@@ -286,7 +280,7 @@ fn exchange(painting: &mut Painting, text: &str) -> Result<(), PictureError> {
             }
             all
         }
-        number => vec![LayerRef::Dry(number.parse().map_err(|_| not_a_swap(text))?)],
+        number => vec![LayerRef::Dry(number.parse().map_err(|_| swap_error(text))?)],
     };
     for layer in layers {
         painting.swap_pigment(layer, from, to)?;
@@ -294,7 +288,7 @@ fn exchange(painting: &mut Painting, text: &str) -> Result<(), PictureError> {
     Ok(())
 }
 
-fn not_a_swap(text: &str) -> SettingError {
+fn swap_error(text: &str) -> SettingError {
     let reason = format!("takes LAYER:FROM=TO, found `{text}`");
     SettingError::of("swap", reason, "try [swap=\"all:Emerald Green=Viridian\"]")
 }
@@ -312,7 +306,7 @@ fn set_opacity(painting: &mut Painting, text: &str) -> Result<(), PictureError> 
     Ok(painting.set_opacity(LayerRef::Dry(layer), value)?)
 }
 
-/// A painting as it is lit, with its layers.
+/// A painting that was lit, with its layers.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RelightOutcome {
     /// Width and height in cells.
@@ -331,7 +325,7 @@ pub struct RelightOutcome {
     /// Files and folders that were written, in the order in which they were written.
     #[serde(skip)]
     pub files: Vec<PathBuf>,
-    /// The content of a file whose path is `-`.
+    /// The content of a file with the path `-`.
     #[serde(skip)]
     pub streamed: Option<Vec<u8>>,
 }
@@ -353,9 +347,9 @@ pub struct LayerOutcome {
 /// Identity and name of a dry layer.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct DryLayerOutcome {
-    /// Number that the layer keeps in its painting.
+    /// Number of the layer. It does not change if layers are added or moved.
     pub id: u32,
-    /// Name of the layer, empty without one.
+    /// Name of the layer. Empty if it has none.
     pub name: String,
     /// Whether the layer is shown.
     pub visible: bool,

@@ -227,7 +227,7 @@ impl Default for PainterlyRequest {
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-#[schemars(description = "Canvas and brushes of a photograph in strokes")]
+#[schemars(description = "Canvas and brushes for a photograph painted in strokes")]
 pub struct StrokesRequest {
     /// Width of the painting in mm, 5 to 5000. Its height follows the photograph's shape
     pub width_mm: f64,
@@ -402,9 +402,10 @@ impl From<Device> for BackendChoice {
 /// A picture that was painted, and its files.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PictureOutcome {
-    /// Width and height in pixels. Of strokes: in cells of the canvas.
+    /// Width and height in pixels. For strokes, this is in cells of the canvas.
     pub size: (usize, usize),
-    /// Name of the device: `cpu` (after strokes the processor with its threads), or the name of a graphics adapter.
+    /// Name of the device: `cpu`, or the name of a graphics adapter. For strokes on the processor, this names the
+    /// processor with its threads.
     pub backend: String,
     /// Figures that only this technique has.
     #[serde(flatten)]
@@ -419,7 +420,7 @@ pub struct PictureOutcome {
     pub remarks: Vec<String>,
     /// Files and folders that were written, in the order in which they were written.
     pub files: Vec<PathBuf>,
-    /// The content of a file whose path is `-`.
+    /// The content of a file with the path `-`.
     #[serde(skip)]
     pub streamed: Option<Vec<u8>>,
 }
@@ -469,7 +470,7 @@ pub enum TechniqueOutcome {
         cells: usize,
         /// Amounts of paint.
         paint_mm3: PaintAmounts,
-        /// Time in seconds of the snapshot from which an interrupted run went on.
+        /// Time in seconds of the snapshot from which an interrupted run continued.
         from_seconds: Option<f64>,
         /// Number of steps of the world that were computed.
         steps_computed: u64,

@@ -1,4 +1,4 @@
-//! A script of strokes: the request, its job, and what comes out. The job replays the script, writes the files that
+//! A script of strokes: the request, its job and its outcome. The job replays the script, writes the files that
 //! the script saves, exports the painting, and writes a timelapse.
 
 use std::{
@@ -75,10 +75,10 @@ pub struct ScriptRequest {
     /// The script (.json)
     pub script: PathBuf,
     /// Library of the pigments [default: the one that the script names, if it is found beside the script].
-    /// A script that continues a painting has its library
+    /// Leave it out for a script that continues a painting, which has its own library
     #[serde(default)]
     pub library: Option<PathBuf>,
-    /// Library for a script that names none [default: the Van Gogh oils that ship]
+    /// Library for a script that names no library [default: the Van Gogh oils that ship]
     #[serde(default)]
     pub default_library: Option<PathBuf>,
     /// Files of the painting
@@ -111,7 +111,7 @@ impl ScriptRequest {
     }
 
     /// Checks the request and the script, paints the script, and writes all files. None of them replaces a file that
-    /// the request reads, and nothing is written before all was checked. `task` may end the work.
+    /// the request reads, and nothing is written before everything is checked. `task` may end the work.
     ///
     /// # Errors
     /// [`PictureError`] for a setting that cannot be used, a file that cannot be read or written, a script that
@@ -195,8 +195,8 @@ impl ScriptRequest {
         })
     }
 
-    /// Opens the painting that the script continues, if it continues one, and the table beside it
-    /// if the script asks for that.
+    /// Opens the painting that the script continues, if there is one, and the table beside it if the
+    /// script asks for the table.
     fn start(&self, script: &StrokeScript, folder: &Path) -> Result<Option<Start>, PictureError> {
         let Some(start) = &script.start else { return Ok(None) };
         if self.library.is_some() {
@@ -239,7 +239,7 @@ impl ScriptRequest {
 /// Path of the painting that a script continues, the painting, and the table beside it.
 type Start = (PathBuf, Document, Option<SideTable>);
 
-/// The canvas on which a script begins, and its palette if it has one.
+/// The canvas on which a script begins, and the palette if the script has one.
 #[derive(Debug, Clone)]
 struct Surfaces {
     canvas: Document,
@@ -281,8 +281,8 @@ pub enum PlayedSession {
 }
 
 impl ScriptJob {
-    /// The next session, as the script begins, on engines that `engine` opens over heights of the ground in
-    /// quanta. `None` if all were played.
+    /// Opens the next session, in the state in which the script begins. `engine` must open an engine over the
+    /// heights of the ground that we pass to it, in quanta. Returns `None` after the last session.
     ///
     /// # Errors
     /// The errors of `engine`, and [`PictureError`] if a device was lost.
@@ -317,10 +317,10 @@ impl ScriptJob {
         listener: &mut Listener<'_>,
     ) -> Result<PlayedSession, PictureError> {
         let mut written = mem::take(&mut self.written);
-        let mut noted = |note: Note| written.pass(note, listener);
+        let mut collect = |note: Note| written.pass(note, listener);
         let played = match self.timelapse.take() {
-            Some(timelapse) => self.write_timelapse(&timelapse, session, task, &mut noted),
-            None => self.paint(session, task, &mut noted),
+            Some(timelapse) => self.write_timelapse(&timelapse, session, task, &mut collect),
+            None => self.paint(session, task, &mut collect),
         };
         self.written = written;
         let canvas = session.canvas();
@@ -370,9 +370,9 @@ impl ScriptJob {
                 "the brush `{brush}` has another head now and begins clean"
             ))));
         }
-        let kept = self.brushes.iter().filter(|brush| brush.paint.is_some());
-        let kept = kept.map(|brush| brush.name.as_str()).collect();
-        for (index, brush) in self.script.unloaded_brushes(&kept) {
+        let loaded = self.brushes.iter().filter(|brush| brush.paint.is_some());
+        let loaded = loaded.map(|brush| brush.name.as_str()).collect();
+        for (index, brush) in self.script.unloaded_brushes(&loaded) {
             listener(Note::Remark(Remark::note(format!(
                 "{name}, action {index}: the brush `{brush}` paints before it was loaded, so it only moves paint that lies there"
             ))));
@@ -412,7 +412,7 @@ impl ScriptJob {
                 if task.is_cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             },
         );
-        report.map_err(of_replay)
+        report.map_err(replay_error)
     }
 
     /// Carries out a save action of the script: a PNG picture, or the painting itself.
@@ -444,7 +444,7 @@ impl ScriptJob {
 }
 
 /// The error of a replay, with the name of the action that failed.
-fn of_replay(error: ReplayError<PictureError>) -> PictureError {
+fn replay_error(error: ReplayError<PictureError>) -> PictureError {
     match error {
         ReplayError::Script(error) => error.into(),
         ReplayError::Action { index, kind, error } => {
@@ -472,7 +472,7 @@ fn check_saves(
     Ok(())
 }
 
-/// Checks that you can write a file in a folder that we make later.
+/// Checks that you can write the file at `path`. Its folder may be missing, since we make it later.
 fn check_save(path: &Path, inputs: &[PathBuf]) -> Result<(), PictureError> {
     match (path.parent(), path.file_name().and_then(|name| name.to_str())) {
         (Some(parent), Some(name)) if !parent.exists() && parent != Path::new("") => {
@@ -487,7 +487,7 @@ fn check_save(path: &Path, inputs: &[PathBuf]) -> Result<(), PictureError> {
 pub struct ScriptOutcome {
     /// Figures of the timelapse, if one was written.
     pub timelapse: Option<TimelapseOutcome>,
-    /// Counts of the replay, if the painting was asked for and not only a timelapse.
+    /// Counts of the replay. `None` if you ask only for a timelapse.
     pub replay: Option<ReplayReport>,
     /// Name of the processor or device.
     pub backend: String,
@@ -499,13 +499,13 @@ pub struct ScriptOutcome {
     pub remarks: Vec<String>,
     /// Files and folders that were written, in the order in which they were first written.
     pub files: Vec<PathBuf>,
-    /// The content of a file whose path is `-`.
+    /// The content of a file with the path `-`.
     pub streamed: Option<Vec<u8>>,
 }
 
 impl Serialize for ScriptOutcome {
-    /// Writes the keys of the timelapse, of the canvas and of the replay. Canvas and device follow the first of
-    /// timelapse and replay.
+    /// Writes the keys of the timelapse, then the keys of the replay. The keys `backend` and `canvas` stand after
+    /// the first of these groups that is there.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut keys = serializer.serialize_map(None)?;
         if let Some(TimelapseOutcome { frames, found, size }) = &self.timelapse {
@@ -549,7 +549,7 @@ mod tests {
         ]
     }"#;
 
-    fn written(folder: &Path, text: &str) -> ScriptRequest {
+    fn request_of(folder: &Path, text: &str) -> ScriptRequest {
         let script = folder.join("one-stroke.json");
         std::fs::write(&script, text).unwrap();
         ScriptRequest { device: Device::Cpu, ..ScriptRequest::new(script) }
@@ -565,7 +565,7 @@ mod tests {
     fn a_script_is_painted_with_its_saves_exports_and_a_timelapse() {
         let folder = tempfile::tempdir().unwrap();
         let file = |name: &str| folder.path().join(name);
-        let mut request = written(folder.path(), SCRIPT);
+        let mut request = request_of(folder.path(), SCRIPT);
         let saved = request.run(&Task::default()).unwrap();
         assert_eq!(saved.files, [file("saved/a.png")]);
         assert_eq!(keys(&saved), "actions strokes substeps cells backend canvas");
@@ -590,7 +590,7 @@ mod tests {
     #[test]
     fn refused_requests_name_the_key_and_the_way_out_and_nothing_is_written() {
         let folder = tempfile::tempdir().unwrap();
-        let request = written(folder.path(), SCRIPT);
+        let request = request_of(folder.path(), SCRIPT);
         type Change = fn(&mut ScriptRequest);
         let changes: [(Change, &str, &str); 5] = [
             (|r| r.exports.bits = 12, "bits takes 8 or 16, found `12`", "8 is usual"),
@@ -615,7 +615,7 @@ mod tests {
             assert!(error.to_string().contains(message), "{error} for {message}");
             assert!(hinted.contains(hint), "{hinted} for {hint}");
         }
-        let none = written(folder.path(), &SCRIPT.replace("saved/a.png", "one-stroke.json"));
+        let none = request_of(folder.path(), &SCRIPT.replace("saved/a.png", "one-stroke.json"));
         let error = none.run(&Task::default()).unwrap_err();
         assert!(error.to_string().ends_with("one-stroke.json"), "{error}");
         assert!(matches!(error, PictureError::Within(..)), "{error:?}");
@@ -627,7 +627,7 @@ mod tests {
     fn a_script_that_saves_nothing_needs_an_export_and_keys_are_checked() {
         let folder = tempfile::tempdir().unwrap();
         let (head, _) = SCRIPT.split_once(",\n            {\"save\"").unwrap();
-        let request = written(folder.path(), &format!("{head}]}}"));
+        let request = request_of(folder.path(), &format!("{head}]}}"));
         let error = request.run(&Task::default()).unwrap_err();
         assert_eq!(error.to_string(), "nothing would be written");
         assert!(error.hint().unwrap().to_string().contains("`picture = painting.png`"));

@@ -3,23 +3,19 @@
 
 use std::path::PathBuf;
 
-use calibrate::Remark;
 use documents::{
     Task,
     file::{Output, OutputFolder},
 };
 use graphics::{compute::Compute, picture::Photograph};
 use paint::{
-    engine::{OpenedEngine, PaintEngine},
-    export::save_files,
-    separation::ColorErrors,
-    technique::Technique,
+    engine::PaintEngine, export::save_files, separation::ColorErrors, technique::Technique,
 };
 use strokes::{StrokePainter, StrokePainterError, StrokeSettings, Subject};
 
 use crate::animation::AnimationRequest;
 use crate::error::{PictureError, SettingError};
-use crate::exports::{Listener, Note, OpenExports, write};
+use crate::exports::{Listener, Note, OpenExports, engine_of, write};
 use crate::request::{
     Device, PictureRequest, PigmentRequest, StrokesRequest, Summary, TechniqueOutcome,
 };
@@ -123,12 +119,8 @@ impl StrokesJob {
             return Ok(Summary { size, backend, technique, frames: None, pigments });
         }
         let floor = &painter.ground().height;
-        let OpenedEngine { engine, device_error } =
-            PaintEngine::open_on(compute.into_device(), device.into(), floor)?;
-        if let Some(error) = device_error {
-            let text = format!("{error}; painting on the processor");
-            listener(Note::Remark(Remark::warning(text)));
-        }
+        let opened = PaintEngine::open_on(compute.into_device(), device.into(), floor)?;
+        let engine = engine_of(opened, listener);
         let mut painted = Technique::paint(&mut painter, engine, task)?;
         if let Some(path) = library {
             painted.script.library = Some(path.display().to_string());

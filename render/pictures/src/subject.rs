@@ -174,8 +174,8 @@ impl ViewRequest {
         }
     }
 
-    /// Positions of the cameras of a picture, in degrees to the right and upwards from the view
-    /// from straight ahead: one position, or all positions of a swing around this view.
+    /// Positions of the cameras of a picture, in degrees to the right and upwards from straight
+    /// ahead: one position, or all positions of a swing around straight ahead.
     ///
     /// # Errors
     /// The errors of [`Self::picture_camera`].
@@ -281,8 +281,8 @@ fn is_mesh(path: &Path) -> Result<bool, PictureError> {
     Ok(matches!(ending.as_deref(), Some("obj" | "gltf" | "glb" | "ply")))
 }
 
-/// Positions of the cameras of a picture, in degrees to the right and upwards from the view from
-/// straight ahead. Without `frames` this is the position `way`, or straight ahead without a `way`.
+/// Positions of the cameras of a picture, in degrees to the right and upwards from straight ahead.
+/// Without `frames` this is the position `way`, or straight ahead without a `way`.
 /// With `frames`, it is so many positions of a swing around straight ahead, as wide as `way`, or a
 /// small swing without a `way`.
 #[must_use]

@@ -22,13 +22,14 @@ use crate::animation::animation_format;
 use crate::error::{PictureError, SettingError};
 use crate::exports::{Listener, Note, OpenExports};
 
-/// Number of frames if you do not ask for another one.
+/// Number of frames if you do not ask for another number.
 const FRAMES: usize = 250;
 
 /// Steps of the progress.
 const STEPS: u64 = 1000;
 
-/// A timelapse of a script, which is played once more for it. Without `file` and `frames` there is none.
+/// A timelapse of a script. We play the script once more for it. Without `file` and `frames`, we make no
+/// timelapse.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(
@@ -81,7 +82,8 @@ impl TimelapseRequest {
             (None, Some(count), None) => Ok(Interval::Actions(count)),
             (None, None, Some(seconds)) => Ok(Interval::Seconds(seconds)),
             _ => {
-                let reason = "is one of three keys, count, every and seconds, and two are given";
+                let reason =
+                    "is one of three keys (count, every, seconds), and only one may be there";
                 Err(SettingError::of("timelapse.count", reason, "leave all but one of them out"))
             }
         }
@@ -99,7 +101,7 @@ impl TimelapseRequest {
         let interval = self.interval()?;
         let settings =
             TimelapseSettings { interval, longest_px: self.size, with_undone: self.undone };
-        settings.check().map_err(of_timelapse)?;
+        settings.check().map_err(timelapse_error)?;
         let rate = FrameRate::new(self.rate).map_err(|error| {
             SettingError::because("timelapse.rate", "takes another value", error)
         })?;
@@ -108,12 +110,12 @@ impl TimelapseRequest {
         OutputFolder::open(&frames, inputs)?;
         let hold_seconds = self.hold;
         let files = TimelapseFiles { animation, frames, keep_frames: true, rate, hold_seconds };
-        files.check().map_err(of_timelapse)?;
+        files.check().map_err(timelapse_error)?;
         Ok(Some(OpenTimelapse { settings, files }))
     }
 }
 
-fn of_timelapse(error: paint::timelapse::TimelapseError) -> PictureError {
+fn timelapse_error(error: paint::timelapse::TimelapseError) -> PictureError {
     PictureError::from(error).within("the timelapse")
 }
 
@@ -152,10 +154,11 @@ pub struct TimelapseOutcome {
 impl OpenTimelapse {
     /// Plans the timelapse of `script`.
     pub(crate) fn plan<'a>(&self, script: &'a StrokeScript) -> Result<Timelapse<'a>, PictureError> {
-        Timelapse::new(script, self.settings).map_err(of_timelapse)
+        Timelapse::new(script, self.settings).map_err(timelapse_error)
     }
 
-    /// Plays `script` on `session`, which must be as the script begins, and writes the files.
+    /// Plays `script` on `session` and writes the files. The session must be in the state in which the script
+    /// begins.
     pub(crate) fn write(
         &self,
         script: &StrokeScript,

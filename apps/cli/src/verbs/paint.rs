@@ -79,7 +79,7 @@ impl Paint {
         }
     }
 
-    /// The picture of these options, with the library that you name, else the default one.
+    /// The picture that these options ask for, with the library that you name, or else the default one.
     fn request(&self) -> Result<PictureRequest> {
         let library = match &self.library {
             None => named_or_default(None)?.map(|(path, _)| path),
@@ -123,7 +123,7 @@ impl Paint {
     }
 }
 
-/// The failure for a script. The default library is the one that a variable names.
+/// Converts an error of a script. For the default library, the message names its variable.
 fn refusal(error: PictureError) -> Failure {
     match error {
         PictureError::DefaultLibrary(error) => {
@@ -226,7 +226,7 @@ impl PhotographOptions {
         self.from.is_some()
     }
 
-    /// Canvas, brushes and further files of these options.
+    /// Canvas, brushes and further files that these options ask for.
     fn strokes(&self) -> StrokesRequest {
         StrokesRequest {
             width_mm: self.width_mm,

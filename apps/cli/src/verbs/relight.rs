@@ -78,7 +78,7 @@ impl Relight {
         }
     }
 
-    /// The painting and the light of these options.
+    /// The request of these options.
     fn request(&self) -> RelightRequest {
         RelightRequest {
             painting: self.painting.clone(),
@@ -98,7 +98,7 @@ impl Relight {
     }
 }
 
-/// The failure for a request. For a number of the light, you are referred to the help.
+/// Converts an error of the request. If it is a number of the light, the hint names the help.
 fn refusal(error: PictureError) -> Failure {
     match &error {
         PictureError::Setting(setting) if setting.key().is_some_and(is_of_light) => {

@@ -78,7 +78,7 @@ impl Stencil {
         }
     }
 
-    /// The picture of these options.
+    /// The picture that these options ask for.
     fn request(&self) -> PictureRequest {
         let PourOptions { pours, paints, seconds } = &self.pours;
         let PigmentOptions { pigments, pigments_before, palette, ground, over, illuminant } =
@@ -175,7 +175,7 @@ fn print_line(outcome: &PictureOutcome, console: &mut Console<'_>) -> Result<()>
     console.line(line)
 }
 
-/// Parses the subject of pictures. Errors list the names.
+/// Parses the content of pictures. Errors list the names.
 fn shows() -> impl TypedValueParser<Value = Show> {
     let names = PossibleValuesParser::new(Show::ALL.map(Show::name));
     names.try_map(|name| name.parse::<Show>())

@@ -1,5 +1,5 @@
-//! Makes the frames of a script in order. While we make an animation, we keep snapshots of the script
-//! beside its frames, from which you can continue if you interrupt it.
+//! Makes the frames of a script in order. While we make an animation, we write snapshots of the script
+//! beside its frames. If you interrupt the run, the next run continues from the newest snapshot.
 
 use std::path::{Path, PathBuf};
 
@@ -21,7 +21,7 @@ use super::scene::Scene;
 use super::script::OpenScript;
 use crate::animation::Recording;
 use crate::error::PictureError;
-use crate::exports::{FrameFolder, Listener, Note};
+use crate::exports::{FrameFolder, Listener, Note, frame_name};
 
 /// A script, and the frames that we make of it.
 pub(super) struct Film<'a> {
@@ -72,18 +72,18 @@ impl Film<'_> {
         Ok(found)
     }
 
-    /// Plays on to a frame, and keeps the snapshots on the way.
+    /// Plays on to a frame, and writes snapshots on the way.
     fn advance_with_snapshots(
         &mut self,
         play: &mut Performance,
         frame: usize,
     ) -> Result<(), PictureError> {
         let steps = self.steps;
-        self.snapshots.go_ahead(play, steps[frame]);
-        for mark in (EVERY..=frame).step_by(EVERY) {
+        self.snapshots.skip_ahead(play, steps[frame]);
+        for mark in (FRAMES_PER_SNAPSHOT..=frame).step_by(FRAMES_PER_SNAPSHOT) {
             if steps[mark] > play.step() {
                 self.advance(play, steps[mark])?;
-                self.snapshots.keep(mark, play)?;
+                self.snapshots.save(mark, play)?;
             }
         }
         self.advance(play, steps[frame])
@@ -95,11 +95,11 @@ impl Film<'_> {
 }
 
 /// Number of frames from one snapshot to the next.
-const EVERY: usize = 50;
-/// Number of snapshots that are kept.
-const KEPT: usize = 2;
-/// Number of steps after which we ask whether the task goes on: a second of the world.
-const ASKED: u64 = 120;
+const FRAMES_PER_SNAPSHOT: usize = 50;
+/// Number of the newest snapshots that stay beside the frames.
+const MOST_SNAPSHOTS: usize = 2;
+/// Number of steps after which we check whether the task is cancelled. This is one second of the world.
+const STEPS_PER_CHECK: u64 = 120;
 
 /// Plays scripts. If there are snapshots of an earlier run, we continue from the newest one.
 pub(super) struct Snapshots {
@@ -107,7 +107,7 @@ pub(super) struct Snapshots {
     device: StepDevice,
     folder: PathBuf,
     /// Digest of everything that the frames depend on.
-    wish: String,
+    digest: String,
     /// Snapshots of an earlier run, in the order of their steps.
     found: Vec<Performance>,
     /// Files of snapshots, the latest written last.
@@ -119,12 +119,12 @@ pub(super) struct Snapshots {
 }
 
 impl Snapshots {
-    /// No snapshots, for scripts that are played from their beginning.
+    /// No snapshots. Use this for a script that is played from its beginning.
     pub(super) fn none(device: StepDevice) -> Self {
         Self {
             device,
             folder: PathBuf::new(),
-            wish: String::new(),
+            digest: String::new(),
             found: Vec::new(),
             files: Vec::new(),
             from_s: None,
@@ -132,11 +132,11 @@ impl Snapshots {
         }
     }
 
-    /// Finds the snapshots with the digest `wish` in the folder of the frames. If some have another
-    /// digest or are damaged, we say so and do not use them.
+    /// Finds the snapshots with this `digest` in the folder of the frames. If some have another digest
+    /// or are damaged, the listener hears of it and we do not use them.
     pub(super) fn find(
         folder: &Path,
-        wish: String,
+        digest: String,
         (beginning, device): (&Performance, StepDevice),
         listener: &mut Listener<'_>,
     ) -> Self {
@@ -146,7 +146,7 @@ impl Snapshots {
         for file in &files {
             match read(file) {
                 Err(error) => faults.push(error.to_string()),
-                Ok(bytes) => match beginning.resumed(&bytes, &wish) {
+                Ok(bytes) => match beginning.resumed(&bytes, &digest) {
                     Ok(moment) => found.push(moment),
                     Err(error) => faults.push(format!("{}: {error}", file.display())),
                 },
@@ -160,7 +160,7 @@ impl Snapshots {
             let text = format!("{fault}; the script goes on from {start}");
             listener(Note::Remark(Remark::note(text)));
         }
-        Self { folder: folder.to_owned(), wish, found, files, ..Self::none(device) }
+        Self { folder: folder.to_owned(), digest, found, files, ..Self::none(device) }
     }
 
     /// Whether there is a snapshot.
@@ -168,8 +168,8 @@ impl Snapshots {
         !self.found.is_empty()
     }
 
-    /// Goes on to the newest snapshot that is not later than `step`, if it is ahead.
-    fn go_ahead(&mut self, play: &mut Performance, step: u64) {
+    /// Replaces `play` by the newest snapshot up to `step`, if this snapshot is later than `play`.
+    fn skip_ahead(&mut self, play: &mut Performance, step: u64) {
         let now = play.step();
         let mut ahead = self.found.iter().rev();
         if let Some(moment) = ahead.find(|moment| moment.step() > now && moment.step() <= step) {
@@ -178,7 +178,7 @@ impl Snapshots {
         }
     }
 
-    /// Plays `script` until `step`. If a snapshot on the way is ahead of us, we continue from it.
+    /// Plays `script` until `step`. If there is a snapshot on the way, we continue from it.
     pub(super) fn advance(
         &mut self,
         play: &mut Performance,
@@ -186,24 +186,24 @@ impl Snapshots {
         script: &OpenScript,
         task: &Task,
     ) -> Result<(), PictureError> {
-        self.go_ahead(play, step);
+        self.skip_ahead(play, step);
         while play.step() < step {
             task.check()?;
             let before = play.step();
-            let played = play.advance_on(&mut self.device, step.min(before + ASKED));
+            let played = play.advance_on(&mut self.device, step.min(before + STEPS_PER_CHECK));
             self.played += play.step() - before;
             played.map_err(|error| script.located_event(error))?;
         }
         Ok(())
     }
 
-    /// Writes the moment of a frame, and removes all files but the newest ones.
-    fn keep(&mut self, frame: usize, moment: &Performance) -> Result<(), PictureError> {
-        let file = self.folder.join(file_name(frame));
-        write_whole(&file, &moment.saved(&self.wish))?;
+    /// Writes a snapshot of a frame, and removes all files except the newest ones.
+    fn save(&mut self, frame: usize, moment: &Performance) -> Result<(), PictureError> {
+        let file = self.folder.join(frame_name(frame, "world"));
+        write_whole(&file, &moment.saved(&self.digest))?;
         self.files.retain(|other| *other != file);
         self.files.push(file);
-        let old = self.files.len().saturating_sub(KEPT);
+        let old = self.files.len().saturating_sub(MOST_SNAPSHOTS);
         self.files.drain(..old).try_for_each(|file| remove(&file))
     }
 
@@ -217,11 +217,6 @@ impl Snapshots {
 fn with_two_decimals(seconds: f64) -> String {
     let text = format!("{seconds:.2}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-/// Name of the file of a snapshot. Indices of frames count from 0, names from 1.
-fn file_name(frame: usize) -> String {
-    format!("frame-{:04}.world", frame + 1)
 }
 
 /// Files of snapshots in a folder, in the order of their frames.

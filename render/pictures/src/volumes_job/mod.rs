@@ -1,5 +1,5 @@
-//! A scene with paint volumes that a script pours, pushes, lifts and dries, with the files that were
-//! asked for.
+//! Plays the script of a scene with paint volumes, and writes the files that you ask for. The script
+//! pours, pushes, lifts and dries paint.
 
 mod script;
 mod scene;
@@ -26,7 +26,7 @@ use scene::{Scene, Times};
 use script::{OpenScript, needs_pigments};
 use stills::{Outputs, Stills};
 
-/// A scene with its script, pigments and outputs that were checked.
+/// A scene with its script, pigments and outputs. All of them were checked.
 #[derive(Debug)]
 pub(crate) struct VolumesJob {
     script: OpenScript,
@@ -119,8 +119,8 @@ impl VolumesJob {
         let device = StepDevice::beside(&compute);
         let mut snapshots = match (&animation, &digest) {
             (Some(animation), Some(digest)) => {
-                let wish = digest.clone().text();
-                Snapshots::find(animation.folder(), wish, (&self.beginning, device), listener)
+                let digest = digest.clone().text();
+                Snapshots::find(animation.folder(), digest, (&self.beginning, device), listener)
             }
             _ => Snapshots::none(device),
         };
@@ -209,7 +209,7 @@ impl VolumesJob {
     }
 }
 
-/// Figures of the world that single pictures show, and of playing.
+/// Figures of the world that single pictures show, and of the steps that were played.
 fn outcome(world: &World, snapshots: &Snapshots) -> TechniqueOutcome {
     let tally = world.tally();
     let [on_scene, lifted, in_tube] = [tally.on_scene, tally.lifted, tally.in_tube]
@@ -231,7 +231,7 @@ fn pigment_names(materials: &VolumePigments) -> Vec<String> {
     slots.iter().flatten().map(|&pigment| library[pigment].name.clone()).collect()
 }
 
-/// The content of pictures that the key `show` names.
+/// The content of pictures that the key `show` asks for.
 fn show_of(name: &str) -> Result<Show, SettingError> {
     name.parse::<Show>().map_err(|_| {
         let names = Show::ALL.map(Show::name).join(", ");
@@ -240,7 +240,7 @@ fn show_of(name: &str) -> Result<Show, SettingError> {
     })
 }
 
-/// Refuses a request that asks for nothing.
+/// Refuses a request that would write nothing.
 fn check_outputs(request: &PictureRequest, own: &VolumesRequest) -> Result<(), SettingError> {
     let others = [&own.passes, &own.mask, &request.stages, &own.volumes, &own.script_out];
     let writes = request.exports.any() || others.into_iter().any(Option::is_some);

@@ -28,11 +28,11 @@ pub(super) struct Scene {
     pub(super) cameras: Vec<Camera>,
     /// Width and height of a picture in pixels.
     pub(super) size: (usize, usize),
-    /// Whether it is a photograph, which has light of its own.
+    /// Whether the subject is a photograph, which has its own light.
     pub(super) photograph: bool,
     /// Path of the model or photograph, or name of the shape, to be written into a script.
     subject: PathBuf,
-    /// Files that it was read from.
+    /// Files that the scene was read from.
     pub(super) inputs: Vec<PathBuf>,
 }
 
@@ -103,7 +103,7 @@ impl OpenScript {
         frames: usize,
     ) -> Result<Scene, PictureError> {
         let subject = self.subject(path)?;
-        // Before a path of the script a photograph is seen as the studio shows it.
+        // A camera path of the script sees the photograph as the studio shows it.
         let camera = self.script.camera.as_ref().filter(|_| !request.has_camera());
         let free =
             camera.is_some_and(|camera| matches!(camera.camera(frames), ScriptCamera::Path(_)));

@@ -1,5 +1,5 @@
-//! The script that is played: read from a file or made for a subject, with everything that the request
-//! adds to it. Its faults name the file with the line, or the key of the request that gave the value.
+//! The script that is played. It is read from a file or made for a subject, and then changed as the
+//! request says. An error names the line of the file, or the key of the request that has the value.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -29,9 +29,9 @@ use crate::style::{
 
 /// Paint in mm3 of a pour if you give no amount. This is a film of 0.02 mm on a disc 60 mm wide.
 const AMOUNT_MM3: f64 = 60.0;
-/// Longest time over which such paint flows, in seconds.
+/// Longest time over which we pour this paint, in seconds.
 const FLOW_S: f64 = 3.0;
-/// Duration without a script and without `seconds`.
+/// Duration in seconds, if there is no script and no key `seconds`.
 const SECONDS: f64 = 4.0;
 
 /// A script with the file that it was read from, if any.
@@ -48,8 +48,8 @@ pub(super) struct OpenScript {
     pub(super) camera_given: bool,
 }
 
-/// A part of the script that the request gave.
-enum Given {
+/// A part of the script that comes from the request.
+enum RequestPart {
     Seconds,
     /// A pour, with its number among the pours of the request.
     Pour(usize),
@@ -59,7 +59,7 @@ enum Given {
 
 impl OpenScript {
     /// Reads the script of a request, or makes one for its subject, and changes it as the request says.
-    /// The pigments of the request are in `library`, if it names one.
+    /// `library` is the library of the request, if it names one.
     pub(super) fn open(
         request: &PictureRequest,
         own: &VolumesRequest,
@@ -71,7 +71,7 @@ impl OpenScript {
         open.apply_style(&request.style, usual)?;
         open.apply_pours(own, &request.pigments.palette, library)?;
         open.apply_ground(own, listener)?;
-        // A script that is written plays the same.
+        // We play the rounded values, because a script that we write holds these.
         open.script = open.script.rounded();
         open.script.check().map_err(|fault| open.located(fault))?;
         if open.script.events().is_empty() {
@@ -82,7 +82,8 @@ impl OpenScript {
         Ok(open)
     }
 
-    /// Reads a script, or makes one in which nothing happens to `subject`.
+    /// Reads the script `subject`. If `subject` is a model or photograph, makes a script for it in which
+    /// nothing happens yet.
     fn of(subject: &Path, seconds: Option<f64>) -> Result<Self, PictureError> {
         let seconds_given = seconds.is_some();
         if !is_toml(subject) {
@@ -102,7 +103,7 @@ impl OpenScript {
         Ok(Self { script, file: Some((name, text)), own_pours, seconds_given, camera_given: false })
     }
 
-    /// Whether it was read from a file.
+    /// Whether the script was read from a file.
     pub(super) fn is_file(&self) -> bool {
         self.file.is_some()
     }
@@ -121,7 +122,7 @@ impl OpenScript {
         for change in &style.set {
             let toml = toml_of_change::<VolumePainter>(change)?;
             script.change_settings(change, &toml).map_err(|error| {
-                // A fault of the settings before this change does not name it.
+                // If the message does not begin with this change, the fault lies in earlier settings.
                 match error.to_string().starts_with(change.as_str()) {
                     true => SettingError::as_of("set", &error),
                     false => SettingError::as_whole(&error),
@@ -131,7 +132,8 @@ impl OpenScript {
         Ok(())
     }
 
-    /// Adds what the request pours. If there is a library, `palette` lists pigments of it.
+    /// Adds the pours of the request. `palette` lists pigments of the library. Without a library, it must be
+    /// empty.
     fn apply_pours(
         &mut self,
         own: &VolumesRequest,
@@ -145,19 +147,19 @@ impl OpenScript {
         }
         let (names, paints) = match library {
             Some(library) => {
-                let paints = own.paint.iter().map(|text| parts(text, library));
+                let paints = own.paint.iter().map(|text| recipe_of(text, library));
                 (pigment_names(palette, library), paints.collect::<Result<Vec<_>, _>>()?)
             }
             None => {
-                let given = [("palette", palette), ("paint", &own.paint[..])];
-                match given.iter().find(|(_, texts)| !texts.is_empty()) {
+                let keys = [("palette", palette), ("paint", &own.paint[..])];
+                match keys.iter().find(|(_, texts)| !texts.is_empty()) {
                     Some((key, _)) => return Err(needs_pigments(key)),
                     None => (Vec::new(), Vec::new()),
                 }
             }
         };
         for name in &names {
-            letter(script, name);
+            palette_key(script, name);
         }
         let in_turn: Vec<String> = match names.is_empty() {
             true => script.palette.values().cloned().collect(),
@@ -169,7 +171,7 @@ impl OpenScript {
                 [one] => Some(one.clone()),
                 each => Some(each[index].clone()),
             };
-            let (picked, amount_mm3) = place(text)?;
+            let (picked, amount_mm3) = pour_of(text)?;
             let mut pour = PourTable {
                 picked: Some(Row(picked)),
                 for_s: script.seconds.min(FLOW_S),
@@ -177,7 +179,7 @@ impl OpenScript {
                 ..PourTable::default()
             };
             for (name, part) in recipe.into_iter().flatten() {
-                *pour.recipe.entry(letter(script, &name)).or_default() += part;
+                *pour.recipe.entry(palette_key(script, &name)).or_default() += part;
             }
             script.pours.push(pour);
         }
@@ -213,34 +215,35 @@ impl OpenScript {
         Ok(())
     }
 
-    /// The light of the request, or of the script, which lies in `folder`.
+    /// The light of the request, or else the light of the script. `folder` is the folder of the script.
     pub(super) fn light(&self, pigments: &PigmentRequest, folder: &Path) -> Option<String> {
         pigments.illuminant.clone().or_else(|| self.script.light(folder))
     }
 
-    /// Pigments, ground and light of the script's palette. The library is the given one. Without it,
-    /// if the script shows films, we open the one that the script names, in `folder`.
+    /// Pigments, ground and light for the palette of the script. `requested` is the library of the
+    /// request. Without it, if the script shows films, we open the library that the script names, from
+    /// `folder`.
     pub(super) fn materials(
         &self,
         settings: &Settings,
         (request, own): (&PigmentRequest, &VolumesRequest),
-        (given, folder): (Option<PigmentLibrary>, &Path),
+        (requested, folder): (Option<PigmentLibrary>, &Path),
     ) -> Result<Option<VolumePigments>, PictureError> {
         let script = &self.script;
         let styles = script.region_styles(settings);
         let shows_films = styles.iter().any(|style| style.inside != Inside::OwnColors);
-        let library = match given {
+        let library = match requested {
             Some(library) => Some(library),
             None if shows_films && !script.palette.is_empty() => script.open_library(folder)?,
             None => None,
         };
         let Some(library) = library else {
-            let given = [
+            let keys = [
                 ("ground", own.ground.is_some()),
                 ("over", own.over.is_some()),
                 ("illuminant", request.illuminant.is_some()),
             ];
-            return match given.iter().find(|(_, is_given)| *is_given) {
+            return match keys.iter().find(|(_, is_there)| *is_there) {
                 None => Ok(None),
                 Some((key, _)) => Err(needs_pigments(key).into()),
             };
@@ -263,9 +266,9 @@ impl OpenScript {
         Ok(Some(VolumePigments { library, slots, own_colors: None, ground, lighting }))
     }
 
-    /// A fault of the script with its file and line, or with the key of the request.
+    /// The error for a fault of the script. It names file and line, or the key of the request.
     pub(super) fn located(&self, fault: Box<ValueFault>) -> PictureError {
-        let Some(given) = self.given(&fault.key) else {
+        let Some(part) = self.part_of_request(&fault.key) else {
             return match &self.file {
                 Some((name, text)) => ScriptError::located(name, text, fault).into(),
                 None => ScriptError::from(fault).into(),
@@ -273,39 +276,45 @@ impl OpenScript {
         };
         let ValueFault { wanted, found, hint, .. } = *fault;
         let takes = format!("takes {wanted}, found `{found}`");
-        let error = match given {
-            Given::Seconds => SettingError::of("seconds", takes, ""),
-            Given::Pour(number) => SettingError::of("pour", format!("number {number} {takes}"), ""),
-            Given::Camera => SettingError::of("camera", takes, ""),
-            // Names of pigments depend on the library.
-            Given::Palette => {
+        let error = match part {
+            RequestPart::Seconds => SettingError::of("seconds", takes, ""),
+            RequestPart::Pour(number) => {
+                SettingError::of("pour", format!("number {number} {takes}"), "")
+            }
+            RequestPart::Camera => SettingError::of("camera", takes, ""),
+            // This is a fault of the input, because the names of pigments depend on the library.
+            RequestPart::Palette => {
                 SettingError::of("palette", takes, "").or_of("paint").with_fault(Fault::Input)
             }
         };
         error.verbatim(hint).into()
     }
 
-    /// The part of the request that gave the value at `key`. `None` if the script has its own.
-    fn given(&self, key: &KeyPath) -> Option<Given> {
+    /// The part of the request that the value at `key` comes from. `None` if it comes from the script itself.
+    fn part_of_request(&self, key: &KeyPath) -> Option<RequestPart> {
         let (first, index) = match &key.0[..] {
             [KeyStep::Key(first), KeyStep::Index(index), ..] => (first, Some(*index)),
             [KeyStep::Key(first), ..] => (first, None),
             _ => return None,
         };
         match (first.as_str(), index) {
-            ("seconds", _) if self.seconds_given || self.file.is_none() => Some(Given::Seconds),
-            ("pour", Some(index)) if index >= self.own_pours => {
-                Some(Given::Pour(index + 1 - self.own_pours))
+            ("seconds", _) if self.seconds_given || self.file.is_none() => {
+                Some(RequestPart::Seconds)
             }
-            ("camera", _) if self.camera_given => Some(Given::Camera),
-            ("palette", _) if self.file.is_none() => Some(Given::Palette),
+            ("pour", Some(index)) if index >= self.own_pours => {
+                Some(RequestPart::Pour(index + 1 - self.own_pours))
+            }
+            ("camera", _) if self.camera_given => Some(RequestPart::Camera),
+            ("palette", _) if self.file.is_none() => Some(RequestPart::Palette),
             _ => None,
         }
     }
 
-    /// An error of playing with its file and line, or with the key of the request.
+    /// The error for a script that cannot be played. It names file and line, or the key of the request.
     pub(super) fn located_event(&self, error: PerformanceError) -> PictureError {
-        if let Some(Given::Pour(number)) = error.table().and_then(|table| self.given(table)) {
+        if let Some(RequestPart::Pour(number)) =
+            error.table().and_then(|table| self.part_of_request(table))
+        {
             let error = error.placed(format!("number {number}"));
             return SettingError::as_of("pour", &error).with_fault(error.fault()).into();
         }
@@ -316,7 +325,7 @@ impl OpenScript {
     }
 }
 
-/// Refuses a key that only pictures with pigments take.
+/// The error for a key that only pictures with pigments take.
 pub(super) fn needs_pigments(key: &str) -> SettingError {
     let hint = "name a [library] after the subject, and give [palette]";
     SettingError::of(key, "needs pigments, but no library is given", hint)
@@ -337,7 +346,7 @@ fn check_counts(own: &VolumesRequest) -> Result<(), SettingError> {
 }
 
 /// The key of a pigment in the palette of a script, which is added if it is new.
-fn letter(script: &mut Script, pigment: &str) -> String {
+fn palette_key(script: &mut Script, pigment: &str) -> String {
     if let Some((key, _)) = script.palette.iter().find(|(_, name)| *name == pigment) {
         return key.clone();
     }
@@ -348,7 +357,7 @@ fn letter(script: &mut Script, pigment: &str) -> String {
 }
 
 /// Reads `X,Y[,MM3]`.
-fn place(text: &str) -> Result<([f64; 2], f64), SettingError> {
+fn pour_of(text: &str) -> Result<([f64; 2], f64), SettingError> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
     let (x, y, amount) = match numbers.as_deref() {
         Ok(&[x, y]) => (x, y, AMOUNT_MM3),
@@ -365,7 +374,7 @@ fn place(text: &str) -> Result<([f64; 2], f64), SettingError> {
 }
 
 /// Reads `NAME=PART,NAME=PART`. A name alone has one part.
-fn parts(text: &str, library: &PigmentLibrary) -> Result<Vec<(String, f64)>, SettingError> {
+fn recipe_of(text: &str, library: &PigmentLibrary) -> Result<Vec<(String, f64)>, SettingError> {
     let read = listed(text, library, name_in_recipe).into_iter().map(|part: &str| {
         let (name, share) = part.rsplit_once('=').unwrap_or((part, "1"));
         let share: f64 = share.trim().parse().ok()?;

@@ -1,9 +1,12 @@
 //! Single pictures of a world with their files: the picture or painting, a mask, layers for compositing,
-//! and the stages to the picture.
+//! and the intermediate stages of the picture.
 
 use std::path::PathBuf;
 
-use documents::{Task, file::Output};
+use documents::{
+    Task,
+    file::{Output, refuse_same},
+};
 use graphics::{
     camera::Camera,
     encoding::{linear_from_encoded, over_white},
@@ -21,7 +24,7 @@ use crate::error::PictureError;
 use crate::exports::{FrameFolder, Listener, OpenExports, PX_MM, StageFolder, opened, write};
 use crate::request::{PictureRequest, VolumesRequest};
 
-/// Files of single pictures that were checked to be writable.
+/// Files of single pictures. We have checked that you can write them.
 #[derive(Debug)]
 pub(super) struct PictureFiles {
     exports: OpenExports,
@@ -30,7 +33,7 @@ pub(super) struct PictureFiles {
     stages: Option<StageFolder>,
 }
 
-/// Files that were checked to be writable.
+/// All files of a job. We have checked that you can write them.
 #[derive(Debug)]
 pub(super) struct Outputs {
     pub(super) animation: Option<Animation>,
@@ -53,15 +56,10 @@ impl Outputs {
         let mask = opened(own.mask.as_ref(), &["png", "exr"], inputs)?;
         let script = opened(own.script_out.as_ref(), &["toml"], inputs)?;
         let film = animation.as_ref().and_then(Animation::file);
-        let single = [passes.as_ref(), mask.as_ref(), script.as_ref(), film];
-        let files: Vec<&Output> = single.into_iter().flatten().collect();
-        for (index, output) in files.iter().enumerate() {
-            if files[..index].iter().any(|other| output.is_same_as(other)) {
-                return Err(output.used_twice().into());
-            }
-        }
+        let files = [passes.as_ref(), mask.as_ref(), script.as_ref(), film];
+        refuse_same(&files)?;
         let exports = request.exports.clone().open(inputs)?;
-        if let Some(twice) = files.into_iter().find(|output| exports.writes(output)) {
+        if let Some(twice) = files.into_iter().flatten().find(|output| exports.writes(output)) {
             return Err(twice.used_twice().into());
         }
         let volumes = own.volumes.as_deref();
@@ -81,13 +79,13 @@ pub(super) struct Stills<'a> {
     pub(super) camera: &'a Camera,
     pub(super) size: (usize, usize),
     pub(super) show: Show,
-    /// Light of a painting, if it is one.
+    /// Light of the painting, if the picture is a painting.
     pub(super) lighting: Option<&'a Lighting>,
     pub(super) title: &'a str,
 }
 
 impl<'a> Stills<'a> {
-    /// Writes all files that are wanted.
+    /// Writes all files that the request asks for.
     pub(super) fn write(
         &mut self,
         files: PictureFiles,

@@ -99,7 +99,7 @@ impl Build {
         Ok(())
     }
 
-    /// The map of these options.
+    /// The map that these options ask for.
     fn request(self) -> ArtMapRequest {
         ArtMapRequest {
             samples: self.samples,

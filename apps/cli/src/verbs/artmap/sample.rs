@@ -101,7 +101,7 @@ impl Sample {
         }
     }
 
-    /// The samples of these options.
+    /// The samples that these options ask for.
     fn request(self) -> SampleRequest {
         SampleRequest {
             over: self.over.method(),
@@ -196,7 +196,7 @@ fn in_relief(seen: StrokesSeen) -> &'static str {
     if seen == StrokesSeen::Relief { " in relief" } else { "" }
 }
 
-/// Proposes marks, prints them, and says how you go on.
+/// Proposes marks, prints them, and prints the next command.
 fn propose(request: &MarksRequest, printed: Printed, console: &mut Console<'_>) -> Result<()> {
     let marks = heard(console, |task, listener| Ok(request.run_heard(task, listener)?))?;
     if printed.as_data(&marks, "samples", console)? {

@@ -84,7 +84,7 @@ pub(super) fn size(sample: &SampleFigures) -> String {
     format!("{width} x {height}")
 }
 
-/// Distance of strokes in texels, and in mm where it is known: `16.0 texels (4 mm)`.
+/// Distance between strokes in texels, and in mm if it is known: `16.0 texels (4 mm)`.
 pub(super) fn spacing(outcome: &SamplesOutcome) -> String {
     let Some(spacing) = outcome.spacing else { return "no texels".to_owned() };
     let mm_per_texel = outcome.samples.first().and_then(|sample| sample.mm_per_texel);
@@ -96,7 +96,7 @@ fn in_texels(spacing: f64, mm_per_texel: Option<f64>) -> String {
     format!("{spacing:.1} texels{}", mm.unwrap_or_default())
 }
 
-/// The names of pigments, separated by commas. Without pigments, we say that there are only colours.
+/// The names of pigments, separated by commas. Without pigments, this is `colours only`.
 pub(super) fn names(pigments: &[String]) -> String {
     if pigments.is_empty() { "colours only".to_owned() } else { pigments.join(", ") }
 }
