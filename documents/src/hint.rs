@@ -132,7 +132,7 @@ pub enum Fault {
 ///     Empty,
 /// }
 ///
-/// let error = PaletteError::TooMany(10);
+/// let error = PaletteError::TooMany { count: 10 };
 /// let hint = error.hint().map(|hint| hint.to_string());
 /// assert_eq!(hint.as_deref(), Some("leave out 2 of them, or set `palette = auto`"));
 /// assert_eq!(error.fault(), Fault::Setting);

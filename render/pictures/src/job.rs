@@ -379,7 +379,7 @@ mod tests {
     /// A sphere over which paint is poured for a tenth of a second, in wide cells.
     fn poured(own: VolumesRequest, folder: &Path) -> PictureRequest {
         let pour = match own.pour.is_empty() {
-            true => vec!["0.5,0.5".to_owned()],
+            true => vec!["0.5,0.5,3000".to_owned()],
             false => own.pour,
         };
         let seconds = own.seconds.or(Some(0.1));
@@ -402,7 +402,7 @@ mod tests {
         else {
             panic!("{outcome:?}");
         };
-        assert!((paint_mm3.on_scene - 60.0).abs() < 1e-3, "{paint_mm3:?}");
+        assert!((paint_mm3.on_scene + paint_mm3.in_tube - 3000.0).abs() < 0.01, "{paint_mm3:?}");
 
         let own = TechniqueRequest::Volumes(VolumesRequest::default());
         let mut again = PictureRequest { subject: file("a.toml"), ..sphere(own, folder.path()) };

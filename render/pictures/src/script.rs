@@ -531,6 +531,8 @@ impl Serialize for ScriptOutcome {
 
 #[cfg(test)]
 mod tests {
+    use std::error::Error as _;
+
     use super::*;
     use documents::hint::Explain;
     use documents::request::request_from_json;
@@ -615,12 +617,12 @@ mod tests {
             assert!(error.to_string().contains(message), "{error} for {message}");
             assert!(hinted.contains(hint), "{hinted} for {hint}");
         }
-        let none = request_of(folder.path(), &SCRIPT.replace("saved/a.png", "one-stroke.json"));
-        let error = none.run(&Task::default()).unwrap_err();
-        assert!(error.to_string().ends_with("one-stroke.json"), "{error}");
+        std::fs::write(folder.path().join("saved"), "a file").unwrap();
+        let error = request.run(&Task::default()).unwrap_err();
         assert!(matches!(error, PictureError::Within(..)), "{error:?}");
+        assert!(error.source().unwrap().to_string().contains("action 2 (save)"), "{error:?}");
         let names = std::fs::read_dir(folder.path()).unwrap();
-        assert_eq!(names.count(), 1, "only the script is there");
+        assert_eq!(names.count(), 2, "only the script and the file are there");
     }
 
     #[test]
