@@ -440,9 +440,9 @@ mod tests {
             assert!(error.to_string().contains(message), "{error} for {message}");
             assert!(hinted.contains(hint), "{hinted} for {hint}");
         }
-        let json = r#"{"painting": "a.exr", "ilumination": "A"}"#;
+        let json = r#"{"painting": "a.exr", "illuminants": "A"}"#;
         let error = request_from_json::<RelightRequest>(json).unwrap_err();
-        assert_eq!(error.to_string(), "unknown key `ilumination`");
+        assert_eq!(error.to_string(), "unknown key `illuminants`");
         let json = serde_json::to_string(&request).unwrap();
         assert_eq!(request_from_json::<RelightRequest>(&json).unwrap(), request, "{json}");
     }
