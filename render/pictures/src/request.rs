@@ -316,10 +316,10 @@ pub struct VolumesRequest {
     pub paint: Vec<String>,
     /// How long paint spreads, in seconds [default: 4, or as the script says]
     pub seconds: Option<f64>,
-    /// Ground: linen, paper or panel [default: that of the script, or panel]
+    /// Ground: linen, paper or panel [default: the one in the script, or panel]
     pub ground: Option<String>,
     /// Reflectance of the ground as measured, 0 to 1, white or black, or one spectrum of a file
-    /// [default: that of the script, or the white of the library]
+    /// [default: the one in the script, or the white of the library]
     pub over: Option<String>,
     /// Write the picture in layers for compositing, as OpenEXR of several parts: colour, grey, count
     /// and tint of each region, ink, place, normal, and heights of pigments

@@ -183,7 +183,7 @@ fn shows() -> impl TypedValueParser<Value = Show> {
 
 impl Styled for VolumePainter {
     const USUAL: &'static str =
-        "that of the script, or sketch; with a LIBRARY and no script, grisaille";
+        "the one in the script, or sketch; with a LIBRARY and no script, grisaille";
 }
 
 #[derive(Debug, Args)]
@@ -216,14 +216,14 @@ struct PigmentOptions {
     /// Up to eight pigments of the volumes, separated by commas
     #[arg(long, value_name = "PIGMENTS", requires = "library_of_paint")]
     palette: Vec<String>,
-    /// Ground: linen, paper or panel [default: that of the script, or panel]
+    /// Ground: linen, paper or panel [default: the one in the script, or panel]
     #[arg(long, value_name = "KIND", value_parser = grounds())]
     ground: Option<GroundKind>,
     /// Reflectance of the ground as measured, 0 to 1, white or black, or one spectrum of a file
-    /// [default: that of the script, or the white of the library]
+    /// [default: the one in the script, or the white of the library]
     #[arg(long, value_name = "GROUND")]
     over: Option<String>,
-    /// Light: D65, A, FL11, 5600K, or the file of a lamp [default: that of the script, or D65]
+    /// Light: D65, A, FL11, 5600K, or the file of a lamp [default: the one in the script, or D65]
     #[arg(long, value_name = "LIGHT")]
     illuminant: Option<String>,
 }

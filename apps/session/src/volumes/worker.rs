@@ -389,8 +389,7 @@ pub struct VolumeWorker {
 
 impl VolumeWorker {
     /// Starts the thread. There is no scene until you send [`VolumeCommand::Open`]. The thread
-    /// calls
-    /// `wake` after each event, so that you can draw the window again.
+    /// calls `wake` after each event, so that you can draw the window again.
     #[must_use]
     pub fn start(wake: impl Fn() + Send + 'static) -> Self {
         let (inputs, receiver) = channel();

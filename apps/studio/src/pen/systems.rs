@@ -1,6 +1,6 @@
-//! Styluses of the window system, and the times of its mouse events: under X11 from `x11`, under
-//! Wayland and Windows from a [`Tablet`], whose millisecond timestamps become [`Instant`]s of this
-//! program.
+//! Styluses of the window system, and the times of its mouse events. Under X11 they come from `x11`,
+//! under Wayland and Windows from a [`Tablet`]. It stamps events in milliseconds of its own clock,
+//! which we convert to [`Instant`]s.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
