@@ -21,12 +21,13 @@ pub(crate) fn fmt(check: bool) -> Outcome {
     Ok(())
 }
 
-/// `lint [CRATE ..]`: clippy on all crates or on the ones that you name, the oldest Rust, licences
-/// of dependencies.
+/// `lint [CRATE ..]`: clippy on all crates, and on the program without pictures, or on the crates
+/// that you name; the oldest Rust, licences of dependencies.
 pub(crate) fn lint(crates: &[String]) -> Outcome {
     agree_on_rust()?;
     if crates.is_empty() {
         Run::cargo("clippy --workspace --all-targets --locked -- -D warnings").go()?;
+        Run::cargo("clippy -p impasto --no-default-features --locked -- -D warnings").go()?;
     } else {
         let chosen = crates.iter().flat_map(|name| ["-p", name]);
         Run::cargo("clippy --all-targets --locked").args(chosen).words("-- -D warnings").go()?;

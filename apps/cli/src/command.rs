@@ -10,7 +10,7 @@ use crate::console::{Console, Voice};
 use crate::failure::{Failure, Result};
 use crate::manual::{pages, with_examples};
 use crate::output::OutputFolder;
-use crate::verbs::Verb;
+use crate::verbs::{LACKING, Verb};
 
 /// Measure real paint, calibrate it, and paint with it.
 #[derive(Debug, Parser)]
@@ -98,7 +98,11 @@ const GROUPS: [(&str, &[&str]); 5] = [
 pub(crate) fn command() -> Command {
     let plain = with_examples(Arguments::command());
     let verbs = grouped(&plain);
-    let more = "`impasto VERB --help` explains a verb; docs/guide/index.md lists the guides.";
+    let mut more =
+        "`impasto VERB --help` explains a verb; docs/guide/index.md lists the guides.".to_owned();
+    if let Some(lacking) = LACKING {
+        more += &format!("\n{lacking}");
+    }
     plain.help_template(format!(
         "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{verbs}Options:\n{{options}}\n\n{more}\n"
     ))
@@ -110,7 +114,10 @@ fn grouped(command: &Command) -> String {
     let others = command.get_subcommands().filter(|verb| !verb.is_hide_set());
     let others: Vec<&str> =
         others.map(Command::get_name).filter(|name| !named.contains(name)).collect();
-    let groups = GROUPS.iter().map(|(title, names)| (*title, names.to_vec()));
+    let groups = GROUPS.iter().map(|(title, names)| {
+        let is_there = |name: &&str| *name == "help" || command.find_subcommand(name).is_some();
+        (*title, names.iter().copied().filter(is_there).collect())
+    });
     let widest = GROUPS.iter().flat_map(|(_, names)| names.iter()).map(|name| name.len()).max();
     let width = widest.unwrap_or_default();
     let mut text = String::new();
@@ -119,7 +126,7 @@ fn grouped(command: &Command) -> String {
         for name in names {
             let help =
                 (name == "help").then(|| "Print this message or the help of a verb".to_owned());
-            let found = command.find_subcommand(name).filter(|verb| !verb.is_hide_set());
+            let found = command.find_subcommand(name);
             let about =
                 found.map(|verb| verb.get_about().map(ToString::to_string).unwrap_or_default());
             if let Some(about) = about.or(help) {
@@ -153,7 +160,8 @@ mod tests {
             assert_eq!(groups, 1, "{verb}");
         }
         for name in GROUPS.iter().flat_map(|(_, names)| names.iter()) {
-            assert!(*name == "help" || shown.contains(name), "there is no verb {name}");
+            let is_there = *name == "help" || shown.contains(name);
+            assert!(is_there || LACKING.is_some(), "there is no verb {name}");
         }
     }
 }

@@ -6,6 +6,7 @@ use std::io::{self, ErrorKind, Write};
 
 use documents::hint::{Explain, Fault, Hint};
 use documents::request::RequestError;
+#[cfg(feature = "pictures")]
 use pictures::{PictureError, SettingError};
 
 /// Result of a verb or of one of its steps.
@@ -107,6 +108,7 @@ impl<E: Explain + 'static> From<E> for Failure {
 }
 
 /// The message of an error. Settings of pictures are named as options, e.g. `--turntable`.
+#[cfg(feature = "pictures")]
 fn message_of(error: &(dyn Error + 'static)) -> String {
     match error.downcast_ref() {
         Some(PictureError::Setting(error)) => error.message(option_of),
@@ -115,6 +117,11 @@ fn message_of(error: &(dyn Error + 'static)) -> String {
             None => error.to_string(),
         },
     }
+}
+
+#[cfg(not(feature = "pictures"))]
+fn message_of(error: &(dyn Error + 'static)) -> String {
+    error.to_string()
 }
 
 /// The option of a setting.

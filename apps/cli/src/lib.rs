@@ -1,8 +1,14 @@
 //! The command line `impasto VERB ...`, callable in process.
 //!
-//! Each verb has a file of its own: its options, one or two calls of a library, and printing.
+//! Each verb has a file of its own: its options, one or two calls of a library, and printing. Without the
+//! feature `pictures` the verbs that draw, paint or map are left out, and their crates are not compiled.
 //! Exit status: 0 done, 1 the data are faulty or a check failed, 2 the command could not run
 //! (a wrong option, an unreadable file, a missing device), 128 + n ended by signal n.
+#![cfg_attr(
+    not(feature = "pictures"),
+    allow(dead_code, reason = "verbs without pictures use a part of what prints and writes")
+)]
+
 mod failure;
 mod request_options;
 mod console;
@@ -12,10 +18,8 @@ mod library_choice;
 mod readings;
 mod surface;
 mod output;
-mod engine;
+#[cfg(feature = "pictures")]
 mod pictures;
-mod technique;
-mod animation;
 mod verbs;
 mod manual;
 mod command;
@@ -24,7 +28,7 @@ use std::ffi::OsString;
 use std::io::Write;
 use std::time::Instant;
 
-use clap::FromArgMatches;
+use clap::{FromArgMatches, error::ErrorKind};
 
 use command::{Arguments, Task};
 use console::Console;
@@ -52,6 +56,9 @@ pub fn run(
             let text = error.render();
             let requested = !error.use_stderr();
             let _ = if requested { write!(out, "{text}") } else { write!(err, "{text}") };
+            if let (ErrorKind::InvalidSubcommand, Some(lacking)) = (error.kind(), verbs::LACKING) {
+                let _ = writeln!(err, "\nhint: {lacking}");
+            }
             return if requested { 0 } else { 2 };
         }
     };

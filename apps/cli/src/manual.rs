@@ -270,11 +270,14 @@ pub(crate) fn with_examples(whole: Command) -> Command {
     })
 }
 
-/// The command with `text` below the help of the verb that `words` name.
+/// The command with `text` below the help of the verb that `words` name, if it has this verb.
 fn at(command: Command, words: &[&str], text: &str) -> Command {
     match words {
         [] => command.after_help(text.to_owned()),
-        [first, rest @ ..] => command.mut_subcommand(*first, |inner| at(inner, rest, text)),
+        [first, rest @ ..] if command.find_subcommand(first).is_some() => {
+            command.mut_subcommand(*first, |inner| at(inner, rest, text))
+        }
+        _ => command,
     }
 }
 

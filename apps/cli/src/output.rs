@@ -11,8 +11,6 @@ use documents::file;
 use crate::console::Console;
 use crate::failure::Result;
 
-pub(crate) use documents::file::is_stream;
-
 /// A folder for outputs, checked to be writable ([`file::OutputFolder`]).
 pub(crate) struct OutputFolder(file::OutputFolder);
 

@@ -181,11 +181,6 @@ pub(crate) fn library(path: &Path) -> Result<PigmentLibrary> {
     Ok(PigmentLibrary::open(path)?)
 }
 
-/// Reads a file of text, or standard input.
-pub(crate) fn text(path: &Path) -> Result<String> {
-    Ok(pictures::text_of(path)?)
-}
-
 /// References that convert counts to reflectance.
 #[derive(Debug, Clone, Default, Args)]
 pub(crate) struct ReferencingOptions {

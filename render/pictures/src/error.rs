@@ -19,6 +19,7 @@ use documents::{
     hint::{Explain, Fault, Hint},
     request::RequestError,
     settings::SettingsError,
+    text::TextError,
 };
 use graphics::{
     camera::CameraPathError,
@@ -178,15 +179,9 @@ pub enum PictureError {
         /// The way out.
         hint: &'static str,
     },
-    /// A file of settings is not UTF-8.
-    #[error("{file}, byte {byte}: text must be UTF-8")]
-    #[hint("save the file in UTF-8")]
-    Encoding {
-        /// Path of the file.
-        file: String,
-        /// Index of the first byte that is not UTF-8, counted from 0.
-        byte: usize,
-    },
+    /// A file of settings cannot be read as text.
+    #[error(transparent)]
+    Text(#[from] TextError),
     /// The task was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

@@ -88,9 +88,7 @@ pub use request::{
     StrokesRequest, TechniqueOutcome, TechniqueRequest, VolumesRequest, WatercolorRequest,
 };
 pub use script::{PlayedSession, ScriptJob, ScriptOutcome, ScriptRequest};
-pub use style::{
-    StyleRequest, listed, name_in_recipe, palette, pigment_names, text_of, toml_of_change,
-};
+pub use style::{StyleRequest, listed, name_in_recipe, palette, pigment_names, toml_of_change};
 pub use subject::{
     FARTHEST_DEG, LEAST_PX, MOST_FRAMES, MOST_PX, PictureViews, Subject, ViewRequest, picture_turns,
 };

@@ -4,7 +4,10 @@
 use std::path::{Path, PathBuf};
 
 use calibrate::library::PigmentLibrary;
-use documents::settings::{Preset, changed};
+use documents::{
+    settings::{Preset, changed},
+    text::read_text,
+};
 use paint::{
     document::{Slots, palette_slots},
     ground::GroundKind,
@@ -45,7 +48,7 @@ impl StyleRequest {
         let preset = self.preset::<T>()?;
         let mut settings = preset.map_or_else(T::Settings::default, Preset::settings);
         if let Some(path) = &self.settings {
-            settings = T::changed_by_file(&settings, path, &text_of(path)?)?;
+            settings = T::changed_by_file(&settings, path, &read_text(path)?)?;
         }
         for change in &self.set {
             let toml = toml_of_change::<T>(change)?;
@@ -79,17 +82,6 @@ fn as_toml(value: &str) -> String {
     // Lists are written as in a file.
     let bare = ["true", "false"].contains(&value) || value.starts_with(['"', '\'', '[']);
     if bare { value.to_owned() } else { format!("{value:?}") }
-}
-
-/// Reads a file of text, or standard input.
-///
-/// # Errors
-/// [`PictureError::File`] if it cannot be read, and [`PictureError::Encoding`] if it is not UTF-8.
-pub fn text_of(path: &Path) -> Result<String, PictureError> {
-    String::from_utf8(documents::file::read(path)?).map_err(|error| {
-        let byte = error.utf8_error().valid_up_to();
-        PictureError::Encoding { file: path.display().to_string(), byte }
-    })
 }
 
 /// The library at `path`, or the oils that ship.

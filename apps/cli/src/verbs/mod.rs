@@ -1,4 +1,4 @@
-//! Verbs of the command line, one file each.
+//! Verbs that calibrate and mix, one file each. Those that draw, paint or map are in [`crate::pictures`].
 mod fit;
 mod validate;
 mod mix;
@@ -9,22 +9,19 @@ mod recipe_search;
 mod correct;
 mod library;
 mod plan;
-mod report;
-mod map;
-mod simulate_scan;
 mod demo;
-mod paint;
-mod relight;
-mod watercolor;
-mod artmap;
-mod painterly;
-mod stencil;
-mod gpu;
 
 use clap::Subcommand;
 
 use crate::console::Console;
 use crate::failure::Result;
+
+/// Says which verbs are left out, if the program was compiled without pictures.
+pub(crate) const LACKING: Option<&str> = if cfg!(feature = "pictures") {
+    None
+} else {
+    Some("`--no-default-features` left out the verbs that draw, paint or map: compile without it")
+};
 
 /// A verb with its options.
 #[derive(Debug, Subcommand)]
@@ -40,17 +37,10 @@ pub(crate) enum Verb {
     Correct(Box<correct::Correct>),
     Library(library::Library),
     Plan(plan::Plan),
-    Report(report::Report),
-    Map(Box<map::Map>),
-    SimulateScan(simulate_scan::SimulateScan),
     Demo(demo::Demo),
-    Paint(Box<paint::Paint>),
-    Relight(Box<relight::Relight>),
-    Watercolor(Box<watercolor::Watercolor>),
-    Artmap(artmap::Artmap),
-    Painterly(Box<painterly::Painterly>),
-    Stencil(Box<stencil::Stencil>),
-    Gpu(gpu::Gpu),
+    #[cfg(feature = "pictures")]
+    #[command(flatten)]
+    Picture(crate::pictures::PictureVerb),
 }
 
 impl Verb {
@@ -66,17 +56,9 @@ impl Verb {
             Self::Correct(verb) => verb.run(console),
             Self::Library(verb) => verb.run(console),
             Self::Plan(verb) => verb.run(console),
-            Self::Report(verb) => verb.run(console),
-            Self::Map(verb) => verb.run(console),
-            Self::SimulateScan(verb) => verb.run(console),
             Self::Demo(verb) => verb.run(console),
-            Self::Paint(verb) => verb.run(console),
-            Self::Relight(verb) => verb.run(console),
-            Self::Watercolor(verb) => verb.run(console),
-            Self::Artmap(verb) => verb.run(console),
-            Self::Painterly(verb) => verb.run(console),
-            Self::Stencil(verb) => verb.run(console),
-            Self::Gpu(verb) => verb.run(console),
+            #[cfg(feature = "pictures")]
+            Self::Picture(verb) => verb.run(console),
         }
     }
 }

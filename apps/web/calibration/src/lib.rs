@@ -3,7 +3,6 @@
 
 mod failure;
 mod remarks;
-mod files;
 mod counts;
 mod readings;
 mod library;

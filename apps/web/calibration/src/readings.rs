@@ -9,7 +9,6 @@ use wasm_bindgen::prelude::*;
 
 use crate::counts::{GivenFiles, References};
 use crate::failure::{Result, Told, request, setting};
-use crate::files::files;
 use crate::remarks::remarks;
 
 /// Options of reading, as the page passes them.
@@ -102,4 +101,10 @@ impl Readings {
 #[wasm_bindgen]
 pub fn formats() -> String {
     json!(ReadingFormat::names().collect::<Vec<_>>()).to_string()
+}
+
+/// Names and contents of files.
+fn files(names: &Array<JsString>, contents: &Array<Uint8Array>) -> Vec<(String, Vec<u8>)> {
+    let names = names.iter().map(String::from);
+    names.zip(contents.iter().map(|bytes| bytes.to_vec())).collect()
 }

@@ -8,7 +8,7 @@ use calibrate::{Backing, backing_from_text, library::PigmentLibrary};
 use documents::{
     counted,
     hint::{Explain, Fault},
-    text::{KeyPath, KeyStep, ValueFault, is_toml},
+    text::{KeyPath, KeyStep, ValueFault, is_toml, read_text},
 };
 use paint::{
     document::Lighting,
@@ -24,7 +24,7 @@ use crate::error::{PictureError, SettingError};
 use crate::exports::{Listener, Note};
 use crate::request::{PictureRequest, PigmentRequest, VolumesRequest};
 use crate::style::{
-    StyleRequest, canvas_of, listed, name_in_recipe, pigment_names, text_of, toml_of_change,
+    StyleRequest, canvas_of, listed, name_in_recipe, pigment_names, toml_of_change,
 };
 
 /// Paint in mm3 of a pour if you give no amount. This is a film of 0.02 mm on a disc 60 mm wide.
@@ -97,7 +97,7 @@ impl OpenScript {
             });
         }
         let name = subject.display().to_string();
-        let text = text_of(subject)?;
+        let text = read_text(subject)?;
         let script = Script::open_own(subject)?;
         let own_pours = script.pours.len();
         Ok(Self { script, file: Some((name, text)), own_pours, seconds_given, camera_given: false })
@@ -117,7 +117,7 @@ impl OpenScript {
         let script = &mut self.script;
         script.preset = style.preset::<VolumePainter>()?.or(script.preset).or(usual);
         if let Some(path) = &style.settings {
-            script.change_settings(&path.display().to_string(), &text_of(path)?)?;
+            script.change_settings(&path.display().to_string(), &read_text(path)?)?;
         }
         for change in &style.set {
             let toml = toml_of_change::<VolumePainter>(change)?;

@@ -11,7 +11,7 @@ use calibrate::curation::{
 };
 use calibrate::library::{AmountKind, Input, PigmentLibrary};
 use clap::{Args, ValueEnum};
-use documents::counted;
+use documents::{counted, text::read_text};
 use serde_json::json;
 use spectra::{Extrapolation, Interpolation};
 
@@ -19,7 +19,7 @@ use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::library_choice::{chosen, default_path, split};
 use crate::output::Output;
-use crate::readings::{ViewingOptions, library, remark_repeated, text};
+use crate::readings::{ViewingOptions, library, remark_repeated};
 use crate::surface::{SurfaceOptions, grid};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -119,7 +119,7 @@ impl Convert {
 
     /// Reads a library from a table of K and S.
     fn table(&self, path: &Path, file: &str) -> Result<PigmentLibrary> {
-        let text = text(path)?;
+        let text = read_text(path)?;
         let frame = LibraryFrame {
             title: self.title.clone().unwrap_or_default(),
             licence: self.licence.clone().unwrap_or_default(),

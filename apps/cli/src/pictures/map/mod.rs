@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use calibrate::remark::Remark;
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Arg, Args, ValueHint};
-use documents::Task;
+use documents::{Task, text::read_text};
 use maps::cube::{CubeOptions, CubeScale};
 use maps::pictures::Overview;
 use maps::truth::{CHI2_RISEN, Comparison, Truth, compare};
@@ -194,7 +194,7 @@ impl Map {
 
 /// Reads the book of an earlier survey.
 fn book(path: &Path) -> Result<Book> {
-    let book = Book::from_json(&crate::readings::text(path)?);
+    let book = Book::from_json(&read_text(path)?);
     book.context(|| format!("{} cannot be used", path.display()))
 }
 

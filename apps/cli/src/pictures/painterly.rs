@@ -12,13 +12,13 @@ use pictures::{
 };
 use serde_json::json;
 
-use crate::animation::{AnimationOptions, SubjectOptions};
+use super::animation::{AnimationOptions, SubjectOptions};
+use super::engine::BackendOption;
+use super::exports::{Exports, frames_text, grounds, painted};
+use super::technique::{ShowPreset, StyleOptions, Styled};
 use crate::console::Console;
-use crate::engine::BackendOption;
 use crate::failure::Result;
 use crate::library_choice::named_or_default;
-use crate::pictures::{Exports, frames_text, grounds, painted};
-use crate::technique::{ShowPreset, StyleOptions, Styled};
 
 /// Paint a 3D model or a photograph in the brushwork of a painting
 ///

@@ -70,7 +70,7 @@ impl SimulateScan {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let inputs = [self.painting.clone()];
         let header = Output::with_ending(&self.output, &["hdr"], &inputs)?;
-        if crate::output::is_stream(header.path()) {
+        if documents::file::is_stream(header.path()) {
             return Err(Failure::usage("a scan has two files", "name its header: -o scan.hdr"));
         }
         Output::open(&written_data(&self.output), &inputs)?;

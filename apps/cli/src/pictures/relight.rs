@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use clap::Args;
 use pictures::{LayerOutcome, PictureError, RelightOutcome, RelightRequest};
 
+use super::engine::EngineOptions;
+use super::exports::{Exports, heard};
 use crate::console::Console;
 use crate::csv_rows::at_most;
-use crate::engine::EngineOptions;
 use crate::failure::{Failure, Result, option_of};
-use crate::pictures::{Exports, heard};
 
 /// Show a painting under another light, or as if painted with other pigments
 ///

@@ -14,13 +14,13 @@ use pictures::{
 use serde_json::json;
 use volumes::painter::{Show, VolumePainter};
 
-use crate::animation::{AnimationOptions, SubjectOptions};
+use super::animation::{AnimationOptions, SubjectOptions};
+use super::engine::BackendOption;
+use super::exports::{Exports, grounds, painted};
+use super::technique::{ShowPreset, StyleOptions, Styled};
 use crate::console::Console;
 use crate::csv_rows::at_most;
-use crate::engine::BackendOption;
 use crate::failure::Result;
-use crate::pictures::{Exports, grounds, painted};
-use crate::technique::{ShowPreset, StyleOptions, Styled};
 
 /// Pour paint over a scene drawn in pencil: what it reaches turns to colour
 ///

@@ -14,12 +14,12 @@ use pictures::{
 };
 use serde_json::json;
 
-use crate::animation::TimelapseOptions;
+use super::animation::TimelapseOptions;
+use super::engine::EngineOptions;
+use super::exports::{Exports, grounds, heard, painted};
 use crate::console::Console;
-use crate::engine::EngineOptions;
 use crate::failure::{Failure, Result};
 use crate::library_choice::{VARIABLE, default_path, named_or_default};
-use crate::pictures::{Exports, grounds, heard, painted};
 
 /// Paint a script of strokes, or a photograph, with calibrated pigments
 ///

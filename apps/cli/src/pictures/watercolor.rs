@@ -12,12 +12,12 @@ use pictures::{
 use serde_json::json;
 use watercolor::WatercolorPainter;
 
-use crate::animation::{AnimationOptions, SubjectOptions};
+use super::animation::{AnimationOptions, SubjectOptions};
+use super::engine::BackendOption;
+use super::exports::{Exports, frames_text, painted};
+use super::technique::{ShowPreset, StyleOptions, Styled};
 use crate::console::Console;
-use crate::engine::BackendOption;
 use crate::failure::Result;
-use crate::pictures::{Exports, frames_text, painted};
-use crate::technique::{ShowPreset, StyleOptions, Styled};
 
 /// Paint a photograph or a 3D model as a watercolor
 ///

@@ -12,7 +12,7 @@ use super::table::{Printed, print_samples, spacing};
 use crate::console::Console;
 use crate::failure::{Context, Result};
 use crate::library_choice::{VARIABLE, default_path};
-use crate::pictures::heard;
+use crate::pictures::exports::heard;
 
 /// Paint samples with the engine: tones of one hue, from dark to light, in the strokes of a style
 ///

@@ -15,7 +15,7 @@ use pictures::{ArtMapCheckRequest, ArtMapRequest, BrushworkOutcome, SheetRequest
 use super::table::{Printed, names, print_samples, print_tiles, spacing, summary};
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::pictures::heard;
+use crate::pictures::exports::heard;
 use crate::readings::remark_repeated;
 
 /// Properties by which patches are compared.

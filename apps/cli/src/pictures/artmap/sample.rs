@@ -11,7 +11,7 @@ use pictures::{MarkFigures, MarksRequest, SampleFigures, SampleRequest};
 use super::table::{Printed, Table, file_name, size, spacing};
 use crate::console::Console;
 use crate::failure::Result;
-use crate::pictures::heard;
+use crate::pictures::exports::heard;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Over {
