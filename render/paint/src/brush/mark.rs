@@ -105,19 +105,19 @@ mod mark_tests {
     use crate::pose::Pose;
     use graphics::tile::Rect;
 
-    const CELL_MM: f64 = 0.2;
+    /// Width of a cell below a head. Large heads cover enough cells of twice the width.
+    fn cell_mm(size_mm: f64) -> f64 {
+        if size_mm < 20.0 { 0.2 } else { 0.4 }
+    }
+
     const BOUNDS: Rect = Rect { x: 0, y: 0, width: 600, height: 600 };
     /// Length of a stroke, and the length from which on we measure its mark, in cells.
     const WAY: (u32, u32) = (150, 100);
-    /// Leans of the handle, each with the heading of the stroke.
-    const LEANS_AND_HEADINGS_DEG: [(f64, f64); 7] = [
-        (0.0, 0.0),
-        (0.0, 127.0),
-        (10.0, 127.0),
-        (20.0, 0.0),
-        (35.0, 127.0),
-        (45.0, 0.0),
-        (60.0, 127.0),
+    /// Headings of the stroke, each with leans of the handle and the number of directions in which it
+    /// leans.
+    const HEADINGS_AND_LEANS_DEG: [(f64, [(f64, u32); 4]); 2] = [
+        (0.0, [(0.0, 1), (10.0, 4), (20.0, 4), (45.0, 8)]),
+        (127.0, [(0.0, 1), (10.0, 4), (35.0, 4), (60.0, 8)]),
     ];
 
     const HEADS: [(HeadShape, f64); 9] = [
@@ -162,8 +162,9 @@ mod mark_tests {
     }
 
     fn mark(shape: HeadShape, size_mm: f64, hand: Hand) -> Mark {
-        let mut head = Head::new(shape, size_mm, CELL_MM).unwrap();
-        let relief = Relief::flat(BOUNDS.width, BOUNDS.height, CELL_MM);
+        let cell_mm = cell_mm(size_mm);
+        let mut head = Head::new(shape, size_mm, cell_mm).unwrap();
+        let relief = Relief::flat(BOUNDS.width, BOUNDS.height, cell_mm);
         let mut contact = Contact::default();
         let (sin, cos) = hand.heading_deg.to_radians().sin_cos();
         let steep = hand.lean_deg.to_radians().tan();
@@ -202,15 +203,15 @@ mod mark_tests {
                     count += 1.0;
                 }
             }
-            behind.push(-along / count * CELL_MM);
+            behind.push(-along / count * cell_mm);
             areas.push(count);
         }
         let area = mean(&areas);
         let spread =
             mean(&areas.iter().map(|a| (a - area) * (a - area)).collect::<Vec<_>>()).sqrt();
         Mark {
-            width_mm: (right - left + 1.0) * CELL_MM,
-            offset_mm: 0.5 * (left + right) * CELL_MM,
+            width_mm: (right - left + 1.0) * cell_mm,
+            offset_mm: 0.5 * (left + right) * cell_mm,
             behind_mm: mean(&behind),
             farthest_mm: behind.iter().fold(0.0, |most, b| b.abs().max(most)),
             unsteadiness: spread / area,
@@ -221,12 +222,13 @@ mod mark_tests {
         of.iter().sum::<f64>() / of.len() as f64
     }
 
-    /// Worst figures of the marks of `hand` over eight directions of its lean: the least and the
-    /// greatest width, and of each other figure the value farthest from 0.
-    fn worst(shape: HeadShape, size_mm: f64, hand: Hand) -> [f64; 6] {
+    /// Worst figures of the marks of `hand` over evenly spread directions of its lean: the least and
+    /// the greatest width, and of each other figure the value farthest from 0.
+    fn worst(shape: HeadShape, size_mm: f64, hand: Hand, directions: u32) -> [f64; 6] {
         let mut worst = [f64::INFINITY, 0.0, 0.0, 0.0, 0.0, 0.0];
-        for octant in 0..8 {
-            let hand = Hand { towards_deg: 45.0 * f64::from(octant), ..hand };
+        for direction in 0..directions {
+            let towards_deg = 360.0 * f64::from(direction) / f64::from(directions);
+            let hand = Hand { towards_deg, ..hand };
             let found = mark(shape, size_mm, hand);
             worst[0] = worst[0].min(found.width_mm);
             worst[1] = worst[1].max(found.width_mm);
@@ -243,11 +245,17 @@ mod mark_tests {
         println!("head      size lean   width (mm)    offset  behind (most)  unsteady");
         let mut outside = Vec::new();
         for (shape, size_mm) in HEADS {
-            for (lean_deg, heading_deg) in LEANS_AND_HEADINGS_DEG {
-                let hand = Hand { lean_deg: 0.0, towards_deg: 0.0, heading_deg, pressure: 0.5 };
-                let upright_mm = mark(shape, size_mm, hand).width_mm;
-                let found = worst(shape, size_mm, Hand { lean_deg, ..hand });
+            let mut upright_mm = 0.0;
+            let rows = HEADINGS_AND_LEANS_DEG.into_iter().flat_map(|(heading_deg, leans)| {
+                leans.map(|(lean_deg, directions)| (heading_deg, lean_deg, directions))
+            });
+            for (heading_deg, lean_deg, directions) in rows {
+                let hand = Hand { lean_deg, towards_deg: 0.0, heading_deg, pressure: 0.5 };
+                let found = worst(shape, size_mm, hand, directions);
                 let [least, most, offset, behind, farthest, unsteady] = found;
+                if lean_deg == 0.0 {
+                    upright_mm = most;
+                }
                 let line = format!(
                     "{:8} {size_mm:5.1} {lean_deg:4.0}  {least:5.1} .. {most:5.1}  {offset:6.2}  \
                  {behind:6.2} ({farthest:5.2})  {unsteady:.3}",
@@ -273,7 +281,7 @@ mod mark_tests {
             for pressure in [0.1, 0.3, 0.5, 0.7, 0.9] {
                 let hand = Hand { lean_deg: 20.0, towards_deg: 45.0, heading_deg: 0.0, pressure };
                 let width_mm = mark(shape, size_mm, hand).width_mm;
-                assert!(width_mm >= before - CELL_MM, "{shape} at {pressure}: {width_mm}");
+                assert!(width_mm >= before - cell_mm(size_mm), "{shape} at {pressure}: {width_mm}");
                 before = width_mm;
             }
         }
