@@ -658,6 +658,21 @@ mod tests {
     }
 
     #[test]
+    fn a_single_sample_is_remarked() {
+        let folder = tempfile::tempdir().unwrap();
+        for (marks, remarks) in [(2, 0), (1, 1)] {
+            let request = sample(&folder);
+            let text: Vec<&str> = MARKS.split_inclusive("[[sample]]").collect();
+            let text = text[..=marks].concat();
+            std::fs::write(request.marks.as_ref().unwrap(), text.trim_end_matches("[[sample]]"))
+                .unwrap();
+            let outcome = request.run(&Task::default()).unwrap();
+            let single = outcome.written.remarks.iter().filter(|text| text.contains("single tone"));
+            assert_eq!(single.count(), remarks, "{outcome:?}");
+        }
+    }
+
+    #[test]
     fn a_map_is_made_checked_and_drawn() {
         let folder = tempfile::tempdir().unwrap();
         let file = |name: &str| folder.path().join(name);
@@ -699,7 +714,12 @@ mod tests {
         let marks = Marks::open(&output).unwrap();
         assert_eq!(marks.samples.len(), outcome.samples.len());
         assert!(outcome.samples.iter().all(|mark| !mark.scribble.is_empty()), "{outcome:?}");
-        assert!(outcome.written.remarks[0].starts_with("only "), "{outcome:?}");
+        let found = outcome.samples.len();
+        for (count, remarks) in [(64, 1), (found + 1, 1), (found, 0)] {
+            let outcome = MarksRequest { count, ..request.clone() }.run(&Task::default()).unwrap();
+            let only = outcome.written.remarks.iter().filter(|text| text.starts_with("only "));
+            assert_eq!(only.count(), remarks, "{count} of {found}: {outcome:?}");
+        }
         for count in [0, 65] {
             let refused = refused(MarksRequest { count, ..request.clone() }.run(&Task::default()));
             let wanted = format!("count takes 1 to 64, found `{count}`");

@@ -617,12 +617,22 @@ mod tests {
             assert!(error.to_string().contains(message), "{error} for {message}");
             assert!(hinted.contains(hint), "{hinted} for {hint}");
         }
+        // The second of two files cannot be written, so the first is not written either.
+        let blocked = SCRIPT.replacen("saved/a.png", "first.png", 1);
+        let request = request_of(folder.path(), &blocked);
         std::fs::write(folder.path().join("saved"), "a file").unwrap();
         let error = request.run(&Task::default()).unwrap_err();
         assert!(matches!(error, PictureError::Within(..)), "{error:?}");
-        assert!(error.source().unwrap().to_string().contains("action 2 (save)"), "{error:?}");
+        assert!(error.source().unwrap().to_string().contains("action 3 (save)"), "{error:?}");
         let names = std::fs::read_dir(folder.path()).unwrap();
         assert_eq!(names.count(), 2, "only the script and the file are there");
+
+        let script = folder.path().join("strokes.png");
+        std::fs::rename(&request.script, &script).unwrap();
+        let mut request = ScriptRequest { script: script.clone(), ..request };
+        request.exports.picture = Some(script);
+        let error = request.run(&Task::default()).unwrap_err().to_string();
+        assert!(error.contains("is an input file"), "{error}");
     }
 
     #[test]
@@ -633,6 +643,10 @@ mod tests {
         let error = request.run(&Task::default()).unwrap_err();
         assert_eq!(error.to_string(), "nothing would be written");
         assert!(error.hint().unwrap().to_string().contains("`picture = painting.png`"));
+        let mut film = request.clone();
+        film.timelapse.file = Some(folder.path().join("film.gif"));
+        let film = film.run(&Task::default()).unwrap();
+        assert_eq!(keys(&film), "frames frames_found size backend canvas");
         let json = r#"{"script": "a.json", "timelaps": {}}"#;
         let error = request_from_json::<ScriptRequest>(json).unwrap_err();
         assert_eq!(error.to_string(), "unknown key `timelaps`");
