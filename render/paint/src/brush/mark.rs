@@ -105,16 +105,11 @@ mod mark_tests {
     use crate::pose::Pose;
     use graphics::tile::Rect;
 
-    /// Width of a cell below a head. Large heads cover enough cells of twice the width.
-    fn cell_mm(size_mm: f64) -> f64 {
-        if size_mm < 20.0 { 0.2 } else { 0.4 }
-    }
-
     const BOUNDS: Rect = Rect { x: 0, y: 0, width: 600, height: 600 };
     /// Length of a stroke, and the length from which on we measure its mark, in cells.
     const WAY: (u32, u32) = (150, 100);
-    /// Headings of the stroke, each with leans of the handle and the number of directions in which it
-    /// leans.
+    /// Headings of the stroke. Each has leans of the handle, the upright one first, and the number of
+    /// directions in which the handle leans.
     const HEADINGS_AND_LEANS_DEG: [(f64, [(f64, u32); 4]); 2] = [
         (0.0, [(0.0, 1), (10.0, 4), (20.0, 4), (45.0, 8)]),
         (127.0, [(0.0, 1), (10.0, 4), (35.0, 4), (60.0, 8)]),
@@ -131,6 +126,11 @@ mod mark_tests {
         (HeadShape::Mop, 20.0),
         (HeadShape::Knife, 15.0),
     ];
+
+    /// Width of a cell below a head of this size. A large head covers enough cells of twice the width.
+    fn cell_mm(size_mm: f64) -> f64 {
+        if size_mm < 20.0 { 0.2 } else { 0.4 }
+    }
 
     /// How a hand holds a brush and which way it goes, in degrees from x towards y.
     #[derive(Debug, Clone, Copy)]
