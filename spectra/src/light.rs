@@ -163,15 +163,15 @@ pub fn lamp_from_bytes(
 }
 
 fn power(file: &str, measured: &MeasuredSpectrum) -> Result<IrregularSpectrum, LampError> {
+    use MeasuredQuantity::{Power, Reflectance, Unknown, Unstated};
     let file = file.to_owned();
     let name = measured.name.clone();
     let found = match measured.quantity {
-        MeasuredQuantity::Unstated if measured.is_relative_to_white() => {
-            MeasuredQuantity::Reflectance
-        }
+        Unstated if measured.is_relative_to_white() => Reflectance,
         stated => stated,
     };
-    if !matches!(found, MeasuredQuantity::Power | MeasuredQuantity::Unstated) {
+    // Relative power is often exported in arbitrary units.
+    if !matches!(found, Power | Unknown | Unstated) {
         return Err(LampError::Quantity { file, name, found });
     }
     let nm = &measured.wavelengths_nm;
@@ -212,6 +212,10 @@ pub enum LampError {
     #[hint(
         if *found == MeasuredQuantity::Counts,
         "counts hold the detector's own response: export irradiance, radiance or power"
+    )]
+    #[hint(
+        if *found == MeasuredQuantity::Photons,
+        "export power, or divide each value by its wavelength and name the column `power`"
     )]
     #[hint(
         "a lamp is a spectrum of power, irradiance or radiance; a reflectance is seen under one"

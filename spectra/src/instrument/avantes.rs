@@ -17,8 +17,9 @@
 
 use super::columns::{Axis, ColumnLabel, below, table};
 use super::decode::{BinaryBytes, lines};
-use super::measured::{InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
+use super::measured::{InstrumentError, MeasuredSpectrum, Role, Unit, stem};
 use super::points::{Duplicates, Point, ordered};
+use super::quantity::MeasuredQuantity;
 
 pub(super) fn read_text(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let lines: Vec<(usize, &str)> = lines(text).collect();

@@ -6,8 +6,9 @@
 //! bands of the spectrum and the name of the sample. Tables without spectra are skipped.
 
 use super::decode::{Decimal, lines, number, required_number};
-use super::measured::{InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
+use super::measured::{InstrumentError, MeasuredSpectrum, Role, Unit, stem};
 use super::points::{Duplicates, Ordered, Point, ordered};
+use super::quantity::MeasuredQuantity;
 
 pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let mut records = Vec::new();

@@ -5,10 +5,9 @@
 //! (.dpt) are columns without a heading.
 
 use super::decode::{Decimal, lines, number, required_number};
-use super::measured::{
-    InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role, Unit, contains_any, stem,
-};
+use super::measured::{InstrumentError, MeasuredSpectrum, Role, Unit, stem};
 use super::points::{Duplicates, Point, ordered};
+use super::quantity::MeasuredQuantity;
 
 /// Whether `text` consists of columns: most lines are numbers, and each starts with a wavelength.
 pub(super) fn is_column_text(text: &str) -> bool {
@@ -44,16 +43,31 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
     let words: String = table.above.join(" ");
     let axis = headings.first().and_then(|heading| Axis::of_words(heading));
     let axis = axis.or_else(|| Axis::of_words(&words)).unwrap_or(Axis::Nanometres);
-    (1..width)
+    let of_values = headings.get(1..).unwrap_or_default();
+    let above = table.above.iter().map(|line| MeasuredQuantity::of_words(line));
+    let stated = |quantity: &MeasuredQuantity| {
+        !matches!(quantity, MeasuredQuantity::Deviation | MeasuredQuantity::Unstated)
+    };
+    let above = match above.into_iter().find(stated) {
+        None if is_of_a_light(&words) => MeasuredQuantity::Power,
+        stated => stated.unwrap_or(MeasuredQuantity::Unstated),
+    };
+    let quantities: Vec<MeasuredQuantity> = (1..width)
         .map(|column| {
             let heading = headings.get(column).copied().unwrap_or_default();
-            let quantity = match MeasuredQuantity::of_words(heading) {
-                MeasuredQuantity::Unstated => match MeasuredQuantity::of_words(&words) {
-                    MeasuredQuantity::Unstated if is_of_a_light(&words) => MeasuredQuantity::Power,
-                    stated => stated,
-                },
+            match MeasuredQuantity::of_heading(heading, of_values) {
+                MeasuredQuantity::Unstated => above,
                 stated => stated,
-            };
+            }
+        })
+        .collect();
+    let is_deviation = |column: usize| quantities[column - 1] == MeasuredQuantity::Deviation;
+    let (deviations, kept): (Vec<usize>, Vec<usize>) = (1..width).partition(|c| is_deviation(*c));
+    let kept = if kept.is_empty() { deviations.clone() } else { kept };
+    kept.iter()
+        .map(|&column| {
+            let heading = headings.get(column).copied().unwrap_or_default();
+            let quantity = quantities[column - 1];
             let name = if width > 2 && !heading.is_empty() {
                 heading.to_owned()
             } else if width > 2 {
@@ -68,7 +82,14 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
             } else {
                 Unit::Unstated
             };
-            table.spectrum(file, column, axis, ColumnLabel { name, quantity, unit })
+            let label = ColumnLabel { name, quantity, unit };
+            let mut record = table.spectrum(file, column, axis, label)?;
+            if column == kept[0] && kept != deviations {
+                record.remarks.extend(deviations.iter().map(|&column| {
+                    format!("the column `{}` holds deviations and is left out", headings[column])
+                }));
+            }
+            Ok(record)
         })
         .collect()
 }
@@ -187,14 +208,14 @@ impl Axis {
     /// The unit named in `words`, for example in the heading of a column. `None` if they name no unit.
     pub(super) fn of_words(words: &str) -> Option<Self> {
         let lower = words.to_lowercase();
-
-        if contains_any(&lower, &["1/cm", "cm-1", "cm^-1", "wavenumber", "wave number"]) {
+        let contains_any = |stems: &[&str]| stems.iter().any(|stem| lower.contains(stem));
+        if contains_any(&["1/cm", "cm-1", "cm^-1", "wavenumber", "wave number"]) {
             Some(Self::Wavenumbers)
-        } else if contains_any(&lower, &["micromet", "micron", "\u{b5}m", "\u{3bc}m"])
+        } else if contains_any(&["micromet", "micron", "\u{b5}m", "\u{3bc}m"])
             || lower.trim() == "um"
         {
             Some(Self::Micrometres)
-        } else if contains_any(&lower, &["nm", "nanomet", "wavelength"]) {
+        } else if contains_any(&["nm", "nanomet", "wavelength"]) {
             Some(Self::Nanometres)
         } else {
             None
@@ -340,6 +361,37 @@ mod tests {
         let found = read("a/b.txt", "wavelength,reflectance\n400,0.1\n410,0.2\n").unwrap();
         assert_eq!((found[0].name.as_str(), found[0].line), ("b", 2));
         assert_eq!(found[0].quantity, MeasuredQuantity::Reflectance);
+    }
+
+    #[test]
+    fn a_heading_that_is_the_name_of_a_paint_states_no_quantity() {
+        let text = "nm,Raw Umber,Straw Yellow,Absorbing Black\n400,5,6,2\n410,6,7,2\n";
+        for record in read("f", text).unwrap() {
+            assert_eq!(record.quantity, MeasuredQuantity::Unstated, "{}", record.name);
+        }
+        for (heading, wanted) in [
+            ("A", MeasuredQuantity::Absorbance),
+            ("%T", MeasuredQuantity::Transmittance),
+            ("K/S", MeasuredQuantity::KubelkaMunk),
+            ("n", MeasuredQuantity::OpticalConstant),
+            ("red", MeasuredQuantity::Unstated),
+        ] {
+            let found = read("f", &format!("nm,{heading}\n400,0.1\n410,0.2\n")).unwrap();
+            assert_eq!(found[0].quantity, wanted, "{heading}");
+        }
+        let letters = read("f", "nm,A,K\n400,0.1,0.2\n410,0.2,0.3\n").unwrap();
+        assert!(letters.iter().all(|record| record.quantity == MeasuredQuantity::Unstated));
+    }
+
+    #[test]
+    fn deviations_are_set_aside_with_a_remark() {
+        let found = read("f", "nm,Mean,StdDev\n400,0.1,0.01\n410,0.2,0.01\n").unwrap();
+        let [record] = &found[..] else { panic!("{found:?}") };
+        assert_eq!((record.name.as_str(), record.values[1]), ("Mean", 0.2));
+        let remark = "the column `StdDev` holds deviations and is left out";
+        assert_eq!(record.remarks, [remark]);
+        let alone = read("f", "nm,StdDev\n400,0.1\n410,0.2\n").unwrap();
+        assert_eq!(alone[0].quantity, MeasuredQuantity::Deviation);
     }
 
     #[test]

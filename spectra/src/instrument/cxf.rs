@@ -14,8 +14,9 @@ use std::fmt::Write;
 use quick_xml::escape::escape;
 
 use super::decode::{Decimal, required_number};
-use super::measured::{InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role, Unit};
+use super::measured::{InstrumentError, MeasuredSpectrum, Role, Unit};
 use super::points::{Duplicates, Point, ordered, sorted};
+use super::quantity::MeasuredQuantity;
 use super::xml::{Element, parse};
 use crate::grid::Grid;
 use crate::spectrum::{Reflectance, Spectrum};

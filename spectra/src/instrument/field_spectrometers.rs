@@ -17,8 +17,9 @@
 
 use super::columns::{Axis, ColumnLabel, below, table};
 use super::decode::{BinaryBytes, lines};
-use super::measured::{InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
+use super::measured::{InstrumentError, MeasuredSpectrum, Role, Unit, stem};
 use super::points::{Duplicates, Point, ordered};
+use super::quantity::MeasuredQuantity;
 
 const FORMAT: &str = "ASD FieldSpec";
 

@@ -8,8 +8,9 @@
 use super::columns::Axis;
 use super::decode::{Decimal, lines, required_number};
 use super::jcamp_data::{Field, Scaling, StatedStep, pages, points, runs};
-use super::measured::{InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
+use super::measured::{InstrumentError, MeasuredSpectrum, Role, Unit, stem};
 use super::points::{Duplicates, Ordered, Point, ordered};
+use super::quantity::MeasuredQuantity;
 
 /// If all values of a processed spectrum exceed this percentage, they are in fact counts.
 const MOST_PERCENT: f64 = 200.0;
@@ -96,7 +97,10 @@ impl Block<'_> {
                 );
                 Ok(MeasuredSpectrum {
                     name: if several { format!("{title} {}", page.name) } else { title.to_owned() },
-                    quantity: MeasuredQuantity::of_words(&words),
+                    quantity: match MeasuredQuantity::of_words(&words) {
+                        MeasuredQuantity::Unstated => MeasuredQuantity::of_field(&page.units),
+                        stated => stated,
+                    },
                     role: Role::Main,
                     unit: if is_percent { Unit::Percent } else { Unit::Unstated },
                     wavelengths_nm: ordered.wavelengths_nm,
@@ -195,7 +199,7 @@ impl Block<'_> {
         {
             return (MeasuredQuantity::Counts, Role::Main, Unit::Unstated);
         }
-        (MeasuredQuantity::of_words(units), Role::Main, unit)
+        (MeasuredQuantity::of_field(units), Role::Main, unit)
     }
 
     /// The records that we do not need to read the data.

@@ -9,8 +9,9 @@
 //! IES TM-27-14, "IES Standard Format for the Electronic Transfer of Spectral Data", is XML: `.spdx`.
 
 use super::decode::{Decimal, lines, number, required_number};
-use super::measured::{InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
+use super::measured::{InstrumentError, MeasuredSpectrum, Role, Unit, stem};
 use super::points::{Duplicates, Point, ordered, sorted};
+use super::quantity::MeasuredQuantity;
 use super::xml::parse;
 
 /// Splits a row into its key and the rest.

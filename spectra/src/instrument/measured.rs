@@ -6,64 +6,11 @@ use std::path::Path;
 use documents::file::disk::is_file;
 use documents::hint::Explain;
 
+use super::quantity::MeasuredQuantity;
 use crate::grid::Grid;
 use crate::spectrum::{
     IrregularSpectrum, IrregularSpectrumError, Reflectance, Spectrum, SpectrumError,
 };
-
-/// The quantity that an instrument measured.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum MeasuredQuantity {
-    /// Reflectance factor, relative to a perfect diffuser.
-    Reflectance,
-    /// Transmittance factor, relative to the incident light.
-    Transmittance,
-    /// Absorbance: the negative decimal logarithm of a reflectance or transmittance.
-    Absorbance,
-    /// Power of a light: radiance, irradiance or relative power.
-    Power,
-    /// Counts of a detector, which give reflectance relative to a white and a dark reading.
-    Counts,
-    /// The file does not state the quantity.
-    Unstated,
-}
-
-impl MeasuredQuantity {
-    /// The quantity named in `words`, for example in the heading of a column.
-    pub(super) fn of_words(words: &str) -> Self {
-        let lower = words.to_ascii_lowercase();
-        if contains_any(&lower, &["reflect"]) {
-            Self::Reflectance
-        } else if contains_any(&lower, &["transmi"]) {
-            Self::Transmittance
-        } else if contains_any(&lower, &["absorb", "absorpt"]) {
-            Self::Absorbance
-        } else if contains_any(&lower, &["count", "scope", "raw"]) {
-            Self::Counts
-        } else if contains_any(&lower, &["radian", "power", "emission", "w/m", "w/nm", "watt"]) {
-            Self::Power
-        } else {
-            Self::Unstated
-        }
-    }
-}
-
-pub(super) fn contains_any(text: &str, stems: &[&str]) -> bool {
-    stems.iter().any(|stem| text.contains(stem))
-}
-
-impl std::fmt::Display for MeasuredQuantity {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Reflectance => "reflectance",
-            Self::Transmittance => "transmittance",
-            Self::Absorbance => "absorbance",
-            Self::Power => "the power of a light",
-            Self::Counts => "a detector's counts",
-            Self::Unstated => "an unstated quantity",
-        })
-    }
-}
 
 /// The unit of the values of a [`MeasuredSpectrum`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,6 +3,7 @@
 //! This module detects the format and reads the spectra with everything that the file states about
 //! them. If you want to use them as readings of paint, see `calibrate::measurement`.
 
+mod quantity;
 mod measured;
 mod points;
 mod decode;
@@ -26,7 +27,8 @@ pub use decode::decode_text;
 pub use documents::file::split_file_and_sheet;
 pub use format::{FileText, Format};
 pub use measured::{
-    ChoiceError, InstrumentError, MeasuredQuantity, MeasuredSpectrum, ReflectanceError, Role, Unit,
-    choose_spectrum, split_file_and_name,
+    ChoiceError, InstrumentError, MeasuredSpectrum, ReflectanceError, Role, Unit, choose_spectrum,
+    split_file_and_name,
 };
+pub use quantity::MeasuredQuantity;
 pub use read::{InstrumentFile, OpenError, OpenedSpectrum, bytes_of, open, open_spectrum, read};

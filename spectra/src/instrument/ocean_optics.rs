@@ -13,8 +13,9 @@
 
 use super::columns::{Axis, ColumnLabel, table};
 use super::decode::{Archive, Decimal, lines, required_number};
-use super::measured::{InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
+use super::measured::{InstrumentError, MeasuredSpectrum, Role, Unit, stem};
 use super::points::{Duplicates, Point, ordered};
+use super::quantity::MeasuredQuantity;
 use super::xml::{Element, parse};
 
 pub(super) fn read_text(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {

@@ -2,8 +2,9 @@
 //! batch. Reflectance is in percent, from `REFLLOW` nm in steps of `REFLINTERVAL`.
 
 use super::decode::{Decimal, lines, required_number};
-use super::measured::{InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role, Unit};
+use super::measured::{InstrumentError, MeasuredSpectrum, Role, Unit};
 use super::points::{Duplicates, Point, ordered};
+use super::quantity::MeasuredQuantity;
 
 pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let mut records = Vec::new();

@@ -153,14 +153,14 @@ impl Referencing {
     }
 
     fn check_quantities(&self, sample: &MeasuredSpectrum) -> Result<(), ReferencingError> {
-        use MeasuredQuantity::{Counts, Power, Unstated};
+        use MeasuredQuantity::{Counts, Power, Unknown, Unstated};
         let darks = self.darks().unwrap_or_default();
         let others =
             std::iter::once(("white", &self.white)).chain(darks.iter().map(|d| ("dark", d)));
         for (role, reading) in std::iter::once(("sample", sample)).chain(others) {
             let name = reading.name.clone();
             let found = reading.quantity;
-            if !matches!(reading.quantity, Counts | Power | Unstated) {
+            if !matches!(reading.quantity, Counts | Power | Unknown | Unstated) {
                 return Err(ReferencingError::Quantity { role, name, found });
             }
             if reading.quantity != sample.quantity

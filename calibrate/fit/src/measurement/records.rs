@@ -119,9 +119,7 @@ fn reflectances<'a>(
             _ if record.role != Role::Main => false,
             MeasuredQuantity::Reflectance | MeasuredQuantity::Unstated => true,
             MeasuredQuantity::Transmittance => choice.transmittance_is_reflectance,
-            MeasuredQuantity::Absorbance | MeasuredQuantity::Power | MeasuredQuantity::Counts => {
-                false
-            }
+            _ => false,
         });
     if kept.is_empty() {
         let Some(record) = others.first() else {
