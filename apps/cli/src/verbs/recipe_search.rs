@@ -64,7 +64,8 @@ impl CommandLine for MatchRequest {
             "only" | "without" => option.value_name("PIGMENT"),
             "with" => option.value_name("PIGMENT[=SHARE]"),
             "at_most" => option.value_name("K"),
-            "least_share" => option.long("least").value_name("SHARE").default_value("1/50"),
+            "least_share" => option.long("least").value_name("SHARE"),
+            "balance" => option.value_name("GRAMS"),
             "whole_parts" => option.long("parts").value_name("N"),
             "prices" => option.long("cost").value_name("PRICE"),
             "tolerance" => option.value_name("DIFFERENCE"),
@@ -204,7 +205,12 @@ impl RecipeReport<'_> {
         console.line(format!("{patch}{}  Lab {lab} ({light}){outside}", target.name))?;
         let nearest = matched.nearest();
         let unit = self.search.limits.metric.unit();
-        if !matched.is_reached() {
+        let least = 100.0 * self.search.limits.least_share;
+        if matched.is_reached_below_least() {
+            console.line(format!(
+                "reached only with shares below {least} %: with these the nearest is {nearest:.2} {unit} away"
+            ))?;
+        } else if !matched.is_reached() {
             console.line(format!(
                 "out of reach of these pigments: the nearest is {nearest:.2} {unit} away"
             ))?;
@@ -226,6 +232,12 @@ impl RecipeReport<'_> {
         }
         for (rank, recipe) in matched.recipes.iter().enumerate() {
             self.print_recipe(&(rank + 1).to_string(), recipe, (&columns, &mut colors), console)?;
+        }
+        if !matched.below_least.is_empty() {
+            console.line(format!("     nearer with shares below {least} % (--least) is"))?;
+        }
+        for recipe in &matched.below_least {
+            self.print_recipe("", recipe, (&columns, &mut colors), console)?;
         }
         if !matched.by_cie1976.is_empty() {
             console.line("     CIEDE2000 misleads at this distance; the nearest by CIE 1976 is")?;

@@ -186,7 +186,7 @@ class Library:
         using: Mapping[str, float | None] | Sequence[str] = ...,
         without: Sequence[str] = ...,
         at_most: int = ...,
-        least_share: float = ...,
+        least_share: float | None = ...,
         whole_parts: int | None = ...,
         prices: Mapping[str, float] | None = ...,
         tolerance: float | None = ...,
@@ -210,7 +210,7 @@ class Library:
         using: Mapping[str, float | None] | Sequence[str] = ...,
         without: Sequence[str] = ...,
         at_most: int = ...,
-        least_share: float = ...,
+        least_share: float | None = ...,
         whole_parts: int | None = ...,
         prices: Mapping[str, float] | None = ...,
         tolerance: float | None = ...,
@@ -233,7 +233,7 @@ class Library:
         using: Mapping[str, float | None] | Sequence[str] = (),
         without: Sequence[str] = (),
         at_most: int = 4,
-        least_share: float = 0.02,
+        least_share: float | None = None,
         whole_parts: int | None = None,
         prices: Mapping[str, float] | None = None,
         tolerance: float | None = None,
@@ -248,6 +248,8 @@ class Library:
 
         `by` is `color`, `cie1976`, `spectrum` or `weighted-spectrum`. `lights` judge each recipe, with
         weights. `using` names pigments that must take part, with a fixed share if one is given.
+        No share is below `least_share`, by default 0.02. If only this keeps a target from being reached,
+        `below_least` of the result holds a recipe with smaller shares.
         """
         return matching.match(
             self,

@@ -53,6 +53,9 @@ class Match(Sequence[Recipe]):
         self.about = about
         """Everything that was found, with the keys of `impasto match --json`."""
         self._recipes = [_recipe(entry, library) for entry in about["recipes"]]
+        self.below_least = [_recipe(entry, library) for entry in about["below_least"]]
+        """The plainest recipe with shares below `least_share`, if all others miss the target by more than the
+        tolerance; else empty."""
 
     @property
     def target(self) -> str:
@@ -123,9 +126,8 @@ def match(library: Library, target: Any, **options: Any) -> Match | list[Match]:
     prices = options["prices"] or {}
     request = {
         key: options[key]
-        for key in ["by", "at_most", "whole_parts", "tolerance", "beyond_measured", "count"]
+        for key in ["by", "at_most", "least_share", "whole_parts", "tolerance", "beyond_measured", "count"]
     } | {
-        "least_share": str(options["least_share"]),
         "thickness": thickness if thickness is None else _range(thickness),
         "only": _names("only", options["only"]),
         "with": [{"name": name, "share": share} for name, share in using.items()],

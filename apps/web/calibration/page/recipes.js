@@ -87,9 +87,11 @@ function show(found) {
   const unit = found.unit ?? "CIEDE2000";
   const reached = found.reached
     ? `${found.target}: recipes within ${found.tolerance.toFixed(2)} ${unit} are equally near; fewest pigments first.`
-    : `${found.target}: out of reach of these paints; the nearest recipe is ${found.nearest.toFixed(2)} ${unit} away.`;
+    : found.reached_below_least
+      ? `${found.target}: reached only with shares below the least one, as in the last recipe; with it the nearest is ${found.nearest.toFixed(2)} ${unit} away.`
+      : `${found.target}: out of reach of these paints; the nearest recipe is ${found.nearest.toFixed(2)} ${unit} away.`;
   $("recipes-told").replaceChildren(element("p", {}, reached), ...remarkList(found.remarks));
-  $("recipes-list").replaceChildren(...found.recipes.map((recipe, place) => card(found, recipe, place, unit)));
+  $("recipes-list").replaceChildren(...[...found.recipes, ...found.below_least].map((recipe, place) => card(found, recipe, place, unit)));
   const colors = ["var(--s)", "var(--k)", "var(--third)"];
   const series = found.recipes.slice(0, 3).map((recipe, place) => ({
     name: `recipe ${place + 1}`, values: recipe.reflectance, color: colors[place], dash: ["", "7 4", "2 4"][place],
@@ -102,7 +104,7 @@ function show(found) {
 function card(found, recipe, place, unit) {
   const half = (hex, text) => element("span", { style: `background:${hex};color:${inkOn(hex)}` }, text);
   const lines = recipe.pigments.map(({ name, share, parts }) => {
-    const amount = parts === undefined ? `${(100 * share).toFixed(1)} %` : `${parts} parts`;
+    const amount = parts === undefined ? `${(100 * share).toFixed(share < 0.01 ? 2 : 1)} %` : `${parts} parts`;
     return element("li", {}, element("span", {}, name), element("span", {}, amount));
   });
   const use = element("button", { type: "button" }, "Mix this");

@@ -18,6 +18,12 @@ use crate::library::{AmountKind, PigmentLibrary};
 /// see larger differences side by side. We chose it by eye.
 const REACHED: f64 = 1.0;
 
+/// Least share of the recipes that we search if the usual one keeps a target from being reached: about a
+/// drop of a strong colour in a pot.
+const SMALLEST_SHARE: f64 = 0.001;
+/// Number of recipes with smaller shares among which we take the plainest.
+const PLAIN_ONES: usize = 50;
+
 /// If the nearest recipe is further than this in CIEDE2000, we also search recipes by CIE 1976. CIEDE2000
 /// was made for differences up to about 5 units (CIE 142:2001).
 const FAR: f64 = 5.0;
@@ -44,6 +50,10 @@ pub struct RecipeMatches {
     /// Nearest recipe by CIE 1976, if all recipes differ from the target by more than 5 CIEDE2000.
     /// Otherwise, and for a search by spectrum, it is empty.
     pub by_cie1976: Vec<RecipeMatch>,
+    /// Plainest recipe with shares below the least one that reaches the target, or else the nearest such
+    /// recipe, if all recipes miss the target by more than the tolerance. Otherwise, and for a search in
+    /// whole parts, it is empty.
+    pub below_least: Vec<RecipeMatch>,
     /// Choices that we made in the search, and warnings.
     pub remarks: Vec<Remark>,
     nearest: f64,
@@ -69,7 +79,10 @@ impl RecipeMatches {
     /// CIEDE2000, or 1 % of reflectance.
     #[must_use]
     pub fn hint(&self) -> Option<Hint> {
-        let advice = "allow more pigments with [at_most], or add paints to the library";
+        let advice = match self.is_reached_below_least() {
+            true => "allow smaller shares: [least=0.001]",
+            false => "allow more pigments with [at_most], or add paints to the library",
+        };
         (!self.is_reached()).then(|| Hint::new(advice))
     }
 
@@ -78,6 +91,13 @@ impl RecipeMatches {
     #[must_use]
     pub fn is_reached(&self) -> bool {
         self.nearest() <= REACHED
+    }
+
+    /// Whether only the least share keeps the target from being reached: a recipe of
+    /// [`Self::below_least`] reaches it.
+    #[must_use]
+    pub fn is_reached_below_least(&self) -> bool {
+        !self.is_reached() && self.below_least.iter().any(|recipe| recipe.distance <= REACHED)
     }
 }
 
@@ -156,15 +176,46 @@ impl RecipeSearch<'_> {
             target,
             recipes: found,
             by_cie1976: Vec::new(),
+            below_least: Vec::new(),
             remarks,
             nearest,
         };
+        matches.below_least = self.below_least(&matches, &further)?;
         if matches.nearest() > FAR && self.limits.metric == Metric::Ciede2000 {
             let metric = Metric::Cie1976;
             let limits = RecipeLimits { metric, count: 1, ..self.limits.clone() };
             matches.by_cie1976 = recipes(self.library, &matches.target, &limits, &further)?;
         }
         Ok(matches)
+    }
+
+    /// The plainest recipe with smaller shares than the least one that reaches the target, or else the nearest
+    /// one. Empty if it is not nearer than all of `matches`.
+    fn below_least(
+        &self,
+        matches: &RecipeMatches,
+        task: &Task,
+    ) -> Result<Vec<RecipeMatch>, MatchError> {
+        let wanted = self.limits.tolerance.clamp(USUAL_TOLERANCE, REACHED);
+        if matches.nearest() <= wanted
+            || self.limits.whole_parts.is_some()
+            || self.limits.least_share <= SMALLEST_SHARE
+        {
+            return Ok(Vec::new());
+        }
+        let limits = RecipeLimits {
+            least_share: SMALLEST_SHARE,
+            tolerance: REACHED,
+            count: PLAIN_ONES,
+            ..self.limits.clone()
+        };
+        let (found, nearest) = recipes_and_nearest(self.library, &matches.target, &limits, task)?;
+        let near_enough = wanted.max(nearest + USUAL_TOLERANCE);
+        let nearer = matches.nearest() - USUAL_TOLERANCE;
+        let plainest = found
+            .into_iter()
+            .find(|recipe| recipe.distance <= near_enough && recipe.distance < nearer);
+        Ok(Vec::from_iter(plainest))
     }
 
     /// Distance of the nearest recipe of any amounts, if limits of amounts keep it from being found.
@@ -221,12 +272,13 @@ pub(super) fn spectrum_of(
 
 impl RecipeSearch<'_> {
     /// The result for one target as JSON. It holds the target's name, Lab by light, `hex` and `in_gamut`,
-    /// then `reached`, `nearest`, `beyond_measured`, measure and tolerance, then `recipes` and
-    /// `by_cie1976`, each as [`Self::recipe_json`]. If you pass `grams`, the mass of the mixture, recipes
+    /// then `reached`, `reached_below_least`, `nearest`, `beyond_measured`, measure and tolerance, then `recipes`,
+    /// `by_cie1976` and `below_least`, each as [`Self::recipe_json`]. If you pass `grams`, the mass of the mixture, recipes
     /// contain amounts.
     #[must_use]
     pub fn to_json(&self, matched: &RecipeMatches, grams: Option<f64>) -> Value {
-        let [recipes, by_cie1976] = [&matched.recipes, &matched.by_cie1976].map(|recipes| {
+        let lists = [&matched.recipes, &matched.by_cie1976, &matched.below_least];
+        let [recipes, by_cie1976, below_least] = lists.map(|recipes| {
             let recipes = recipes.iter().map(|recipe| self.recipe_json(recipe, grams));
             recipes.collect::<Vec<Value>>()
         });
@@ -237,6 +289,7 @@ impl RecipeSearch<'_> {
             "hex": displayed(target.lab[0]).to_hex(),
             "in_gamut": displayed(target.lab[0]).in_gamut(),
             "reached": matched.is_reached(),
+            "reached_below_least": matched.is_reached_below_least(),
             "nearest": matched.nearest(),
             "beyond_measured": matched.beyond_measured(),
             "by": self.limits.metric.name(),
@@ -246,6 +299,7 @@ impl RecipeSearch<'_> {
             "tolerance_origin": self.tolerance_origin.name(),
             "recipes": recipes,
             "by_cie1976": by_cie1976,
+            "below_least": below_least,
         })
     }
 
@@ -408,6 +462,48 @@ mod tests {
             pigment_count(&usual)
         );
         assert!((usual.nearest() - fine.nearest()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_pale_tint_is_out_of_reach_of_the_least_share_and_not_of_the_pigments() {
+        let only = ["Zinc White", "Bone Black"].map(str::to_owned).to_vec();
+        let request = MatchRequest { only, tolerance: Some(0.5), ..MatchRequest::default() };
+        let tint = search("88,-1,-2", request.clone());
+        assert!(tint.nearest() > 5.0 && tint.is_reached_below_least(), "{}", tint.nearest());
+        let [below] = &tint.below_least[..] else { panic!("{tint:?}") };
+        assert!(below.distance < 1.0, "{below:?}");
+        assert!(below.shares.iter().any(|(_, share)| *share < 0.02), "{below:?}");
+        assert!(tint.hint().unwrap().to_string().contains("`least = 0.001`"), "{:?}", tint.hint());
+        // Whoever allows small shares, or divides into parts, needs no such recipe.
+        for request in [
+            MatchRequest { least_share: Some(0.001), ..request.clone() },
+            MatchRequest { whole_parts: Some(20), ..request },
+        ] {
+            assert!(search("88,-1,-2", request).below_least.is_empty());
+        }
+        assert!(search("45,10,20", MatchRequest::default()).below_least.is_empty());
+        let magenta = search("#ff00ff", MatchRequest::default());
+        assert!(!magenta.is_reached_below_least() && !magenta.is_reached(), "{magenta:?}");
+    }
+
+    #[test]
+    fn the_balance_decides_the_least_share_of_a_mass() {
+        let oils = PigmentLibrary::van_gogh_oils();
+        let least =
+            |request: &MatchRequest| oils.recipe_search(request).unwrap().limits.least_share;
+        let plain = MatchRequest::default();
+        let of_pot = MatchRequest { grams: Some(250.0), ..plain.clone() };
+        let coarse = MatchRequest { balance: 1.0, ..of_pot.clone() };
+        let given = MatchRequest { least_share: Some(0.1), ..of_pot.clone() };
+        let found = [&plain, &of_pot, &coarse, &given].map(least);
+        assert_eq!(found, [0.02, 0.01 / 250.0, 1.0 / 250.0, 0.1]);
+        for balance in [0.0, f64::NAN] {
+            let error =
+                oils.recipe_search(&MatchRequest { balance, ..of_pot.clone() }).unwrap_err();
+            assert!(error.to_string().starts_with("the step of a balance is above 0"), "{error}");
+        }
+        let too_little = MatchRequest { grams: Some(0.005), ..plain };
+        assert!(oils.recipe_search(&too_little).is_ok(), "a drop is weighed as one pigment");
     }
 
     fn pigment_count(found: &RecipeMatches) -> usize {

@@ -22,6 +22,11 @@ use crate::evaluate::{Remark, check_visible_band};
 use crate::library::{AmountKind, PigmentLibrary};
 use crate::recipe::PigmentId;
 
+/// Minimum share of each pigment if the request does not state one.
+const USUAL_LEAST_SHARE: f64 = 0.02;
+/// Greatest minimum share that a balance sets. A mass that it can hardly weigh is one pigment, or two halves.
+const MOST_OF_A_BALANCE: f64 = 0.5;
+
 /// A pigment that every recipe must contain, by name. JSON may hold the name alone.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(from = "RequiredForm")]
@@ -102,15 +107,17 @@ pub struct MatchRequest {
     pub without: Vec<String>,
     /// Maximum number of pigments of a recipe, 1 to 8
     pub at_most: usize,
-    /// Minimum share of each pigment of a recipe, such as 0.02 or 1/50, about the least that a
-    /// palette knife can cut off
+    /// Minimum share of each pigment of a recipe, such as 0.01 or 1/100 [default: 1/50, about the least that
+    /// a palette knife can cut off; for a mass in grams, what `balance` can weigh]
     #[serde(deserialize_with = "read_share")]
     #[schemars(schema_with = "text_or_number")]
-    pub least_share: f64,
+    pub least_share: Option<f64>,
     /// Give recipes in whole parts whose sum is at most N
     pub whole_parts: Option<u32>,
     /// Total mass of the mixture in grams; amounts are then by mass
     pub grams: Option<f64>,
+    /// Step of the balance in grams: no pigment of a mass is lighter, unless a minimum share is given
+    pub balance: f64,
     /// Price of one gram (or one unit of absolute amounts), NAME=PRICE, in any currency (may be
     /// repeated), or a CSV with the columns pigment and price
     #[schemars(with = "Vec<String>")]
@@ -145,9 +152,10 @@ impl Default for MatchRequest {
             with: Vec::new(),
             without: Vec::new(),
             at_most: 4,
-            least_share: 0.02,
+            least_share: None,
             whole_parts: None,
             grams: None,
+            balance: 0.01,
             prices: PriceList::default(),
             tolerance: None,
             beyond_measured: false,
@@ -174,7 +182,7 @@ impl MatchRequest {
         let mut limits = RecipeLimits {
             metric: self.metric,
             at_most: self.at_most,
-            least_share: self.least_share,
+            least_share: self.least_share_of_each()?,
             whole_parts: self.whole_parts,
             tolerance: self.tolerance_for(library).0,
             count: self.count,
@@ -206,6 +214,22 @@ impl MatchRequest {
             (None, Some(error)) if error > USUAL_TOLERANCE => (error, ToleranceOrigin::Library),
             (None, _) => (USUAL_TOLERANCE, ToleranceOrigin::Usual),
         }
+    }
+
+    /// The minimum share of each pigment.
+    fn least_share_of_each(&self) -> Result<f64, MatchError> {
+        if !(self.balance > 0.0 && self.balance < 1e9) {
+            return Err(MatchError::Number {
+                what: "the step of a balance is above 0 g",
+                value: self.balance,
+                hint: "try [balance=0.01]",
+            });
+        }
+        Ok(match (self.least_share, self.grams) {
+            (Some(given), _) => given,
+            (None, Some(grams)) if grams > 0.0 => (self.balance / grams).min(MOST_OF_A_BALANCE),
+            (None, _) => USUAL_LEAST_SHARE,
+        })
     }
 
     fn check_lights(&self) -> Result<(), MatchError> {
@@ -312,8 +336,8 @@ pub fn parse_share(text: &str, setting: &str) -> Result<f64, RequestError> {
     })
 }
 
-fn read_share<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    from_text(deserializer, |text| parse_share(text, "least"))
+fn read_share<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
+    from_text(deserializer, |text| parse_share(text, "least").map(Some))
 }
 
 fn write_thickness<S: Serializer>(

@@ -85,7 +85,7 @@ impl ToneLadder {
         let names = table.iter().map(|&pigment| library[pigment].name.clone());
         let options = MatchRequest {
             only: names.collect(),
-            least_share: LEAST_SHARE,
+            least_share: Some(LEAST_SHARE),
             count: 1,
             tolerance: Some(USUAL_TOLERANCE),
             ..MatchRequest::default()
@@ -204,7 +204,7 @@ fn pigments(palette: &Palette<'_>, hue: Lab) -> Result<Vec<PigmentId>, TonesErro
     let library = palette.library();
     let options = MatchRequest {
         at_most: HUE_PIGMENTS,
-        least_share: LEAST_SHARE,
+        least_share: Some(LEAST_SHARE),
         count: 1,
         tolerance: Some(USUAL_TOLERANCE),
         ..MatchRequest::default()
