@@ -471,14 +471,14 @@ impl PigmentLibrary {
     pub fn from_json(file: &str, text: &str) -> Result<Self, LibraryError> {
         let text = text.trim_start_matches('\u{feff}');
         if !text.trim_start().starts_with('{') {
-            return Err(LibraryError::Format {
-                file: file.to_owned(),
-                found: "no JSON object".to_owned(),
-            });
+            return Err(LibraryError::NoLibrary(file.to_owned()));
         }
-        let syntax = |error: serde_json::Error| LibraryError::Syntax {
-            file: file.to_owned(),
-            reason: documents::plain_parser_message(&error.to_string()),
+        let syntax = |error: serde_json::Error| match error.is_eof() {
+            true => LibraryError::CutOff { file: file.to_owned(), line: error.line() },
+            false => LibraryError::Syntax {
+                file: file.to_owned(),
+                reason: documents::plain_parser_message(&error.to_string()),
+            },
         };
         let mut value: Value = serde_json::from_str(text).map_err(syntax)?;
         let object = value.as_object_mut().ok_or_else(|| LibraryError::Format {
@@ -635,13 +635,28 @@ pub enum LibraryError {
         /// Message of the JSON parser.
         reason: String,
     },
+    /// The text is not JSON at all. Such a file often holds readings.
+    #[error("{0}: this is not a pigment library, which is JSON")]
+    #[hint(
+        "if it holds readings, fit them first: `impasto fit READINGS.csv [output=LIBRARY.json]`"
+    )]
+    NoLibrary(String),
+    /// The file ends within a value.
+    #[error("{file}: the file is cut off in line {line}")]
+    #[hint("copy it again, or fit the readings again")]
+    CutOff {
+        /// File name as the caller gave it.
+        file: String,
+        /// Last line, counted from 1.
+        line: usize,
+    },
     /// The key `format` does not name a pigment library.
     #[error("{file}: `format` must be \"impasto-pigment-library\", found `{found}`")]
     #[hint("`impasto fit READINGS.csv [output=LIBRARY.json]` makes a pigment library")]
     Format {
         /// File name as the caller gave it.
         file: String,
-        /// Value of the key `format`, or what the file begins with.
+        /// Value of the key `format`.
         found: String,
     },
     /// The file's version is newer than this program.
@@ -704,6 +719,29 @@ mod tests {
         let oils = PigmentLibrary::van_gogh_oils();
         assert_eq!(oils.pigments.len(), 20);
         assert!(oils.find("Zinc White").is_ok(), "the reference white");
+    }
+
+    #[test]
+    fn files_that_are_no_library_or_are_cut_off_say_so() {
+        let whole = PigmentLibrary::van_gogh_oils().to_json();
+        let lines = |count: usize| whole.lines().take(count).collect::<Vec<_>>().join("\n");
+        for (text, message, hint) in [
+            (
+                "sample,White,400\n",
+                "f: this is not a pigment library, which is JSON",
+                "fit them first",
+            ),
+            (&lines(20), "f: the file is cut off in line 20", "copy it again"),
+            (
+                "{}",
+                "f: `format` must be \"impasto-pigment-library\", found `nothing`",
+                "impasto fit",
+            ),
+        ] {
+            let error = PigmentLibrary::from_json("f", text).unwrap_err();
+            assert_eq!(error.to_string(), message);
+            assert!(error.hint().unwrap().to_string().contains(hint), "{error}");
+        }
     }
 
     #[test]

@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use documents::Task;
-use graphics::field::Field;
+use graphics::{field::Field, picture_formats::begins_like_picture};
 use paint::{
     document::{Document, Lighting},
     engine::PaintEngine,
+    file::PaintingFileError,
     layer::{DryLayerState, LayerRef},
     light::Light,
     painting::{Painting, UNDO_BYTES},
@@ -140,7 +141,8 @@ impl RelightRequest {
         let undo_bytes = undo_bytes(self.undo_memory)?;
         task.stage("reading the painting");
         task.check()?;
-        let mut document = Document::open(&self.painting)?;
+        let mut document =
+            Document::open(&self.painting).map_err(|error| self.not_opened(error))?;
         document.lighting = self.lighting(&document.lighting)?;
         let Lighting { illuminant, observer, .. } = &document.lighting;
         let light = Light::new(&document.library, &Viewing::named(illuminant, observer)?)?;
@@ -149,6 +151,18 @@ impl RelightRequest {
         let opacity = self.opacity.clone();
         let written = Written::default();
         Ok(RelightJob { document, light, swap, opacity, exports, undo_bytes, written })
+    }
+
+    /// The error of opening the painting, or that it is a picture.
+    fn not_opened(&self, error: PaintingFileError) -> PictureError {
+        let is_picture =
+            documents::file::read(&self.painting).is_ok_and(|bytes| begins_like_picture(&bytes));
+        if !is_picture {
+            return error.into();
+        }
+        let message = format!("{} is a picture, not a painting", self.painting.display());
+        let hint = "a painting is an .exr with all layers, as [output=painting.exr] writes it";
+        PictureError::Data { message, hint }
     }
 
     /// The lighting that the request asks for. Without a key, this is the `saved` value of the painting.
@@ -417,6 +431,20 @@ mod tests {
         assert_eq!(keys, ["canvas", "cell_mm", "layers", "lighting", "wavelengths_nm"]);
         let wet = &json["layers"][0];
         assert_eq!((&wet["layer"], wet.get("id")), (&serde_json::json!("wet"), None));
+    }
+
+    #[test]
+    fn a_picture_is_told_from_a_painting() {
+        let folder = tempfile::tempdir().unwrap();
+        let picture = folder.path().join("photo.jpg");
+        for (bytes, message) in [
+            (&b"\xff\xd8\xff\xe0 a picture"[..], "photo.jpg is a picture, not a painting"),
+            (b"text", "not an intact OpenEXR file"),
+        ] {
+            std::fs::write(&picture, bytes).unwrap();
+            let error = RelightRequest::new(&picture).run(&Task::default()).unwrap_err();
+            assert!(error.to_string().contains(message), "{error}");
+        }
     }
 
     #[test]

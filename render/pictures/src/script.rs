@@ -16,6 +16,7 @@ use documents::{
 use graphics::{
     export::{PictureFormat, picture_file},
     field::Field,
+    picture_formats::begins_like_picture,
 };
 use paint::{
     document::Document,
@@ -145,7 +146,13 @@ impl ScriptRequest {
         let mut written = Written::default();
         let path = &self.script;
         let name = path.display().to_string();
-        let mut script = StrokeScript::from_json(&name, &file::read(path)?)?;
+        let bytes = file::read(path)?;
+        if begins_like_picture(&bytes) {
+            let message = format!("{name} is a picture, not a script");
+            let hint = "a picture is painted in strokes with [from], and a script is JSON";
+            return Err(PictureError::Data { message, hint });
+        }
+        let mut script = StrokeScript::from_json(&name, &bytes)?;
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         let folder = folder.unwrap_or(Path::new(".")).to_owned();
         let start = self.start(&script, &folder)?;
@@ -626,6 +633,11 @@ mod tests {
         assert!(error.source().unwrap().to_string().contains("action 3 (save)"), "{error:?}");
         let names = std::fs::read_dir(folder.path()).unwrap();
         assert_eq!(names.count(), 2, "only the script and the file are there");
+
+        let picture = folder.path().join("photo.jpg");
+        std::fs::write(&picture, b"\xff\xd8\xff\xe0 a picture").unwrap();
+        let error = ScriptRequest::new(&picture).run(&Task::default()).unwrap_err();
+        assert!(error.to_string().ends_with("photo.jpg is a picture, not a script"), "{error}");
 
         let script = folder.path().join("strokes.png");
         std::fs::rename(&request.script, &script).unwrap();

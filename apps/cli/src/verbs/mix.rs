@@ -1,6 +1,6 @@
 //! `impasto mix`: predicts the reflectance and the colour of a recipe.
 
-use calibrate::library::AmountKind;
+use calibrate::library::{AmountKind, PigmentLibrary};
 use calibrate::{FilmOver, MixtureColor};
 use clap::Args;
 use serde_json::json;
@@ -26,7 +26,7 @@ pub(crate) struct Mix {
     words: Vec<String>,
     /// Thickness of the film. At 1 the reference white has S d = 1; for absolute amounts, 1 means the
     /// amounts as given [default: a film that hides; for absolute amounts 1]
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = thickness)]
     thickness: Option<f64>,
     /// Measured reflectance of the ground: 0 to 1, white (1), black (0), or a file of
     /// spectra, FILE or FILE#SAMPLE with a name as `color` prints it [default: white]
@@ -47,7 +47,7 @@ impl Mix {
         let viewing = self.viewing.viewing()?;
         let (path, recipe) = split(&self.words, false);
         let ChosenLibrary { library, .. } = chosen(path.as_deref(), console)?;
-        let parts = parsed_recipe(recipe)?;
+        let parts = parsed_recipe(recipe, &library)?;
         let absolute = library.amounts == AmountKind::Absolute;
         let hides = self.thickness.is_none() && !absolute;
         if hides && self.over.is_some() {
@@ -111,21 +111,75 @@ impl Mix {
     }
 }
 
-/// Parses a recipe of texts `NAME=PARTS`.
-fn parsed_recipe(texts: &[String]) -> Result<Vec<(&str, f64)>> {
-    texts
-        .iter()
-        .map(|text| {
-            let found = text.rsplit_once('=').and_then(|(name, parts)| {
-                let parts: f64 = parts.trim().parse().ok()?;
-                Some((name, parts))
-            });
-            found.ok_or_else(|| {
-                Failure::usage(
-                    format!("a recipe takes NAME=PARTS, found `{text}`"),
-                    "try \"Zinc White=9\" \"Cobalt Blue=1\"",
-                )
-            })
-        })
-        .collect()
+fn thickness(text: &str) -> std::result::Result<f64, String> {
+    text.parse().map_err(|_| "takes a plain number, such as 0.1".to_owned())
+}
+
+/// Parses a recipe of texts `NAME=PARTS`. Hints name pigments of `library`.
+fn parsed_recipe<'a>(texts: &'a [String], library: &PigmentLibrary) -> Result<Vec<(&'a str, f64)>> {
+    if texts.is_empty() {
+        let names = library.pigments.iter().zip([9, 1]);
+        let example: Vec<String> =
+            names.map(|(pigment, parts)| format!("\"{}={parts}\"", pigment.name)).collect();
+        return Err(Failure::usage(
+            "no pigment is named",
+            format!("name pigments with their parts: impasto mix LIBRARY {}", example.join(" ")),
+        ));
+    }
+    texts.iter().map(|text| parsed_part(text)).collect()
+}
+
+/// Parses `NAME=PARTS`.
+fn parsed_part(text: &str) -> Result<(&str, f64)> {
+    let Some((name, parts)) = text.rsplit_once('=') else {
+        return Err(Failure::usage(
+            format!("a recipe takes NAME=PARTS, found `{text}`"),
+            "try \"Zinc White=9\" \"Cobalt Blue=1\"",
+        ));
+    };
+    match parts.trim().parse::<f64>() {
+        Ok(number) if number > 0.0 => Ok((name, number)),
+        Ok(_) => Err(Failure::usage(
+            format!("a part is above 0, found `{text}`"),
+            "leave out pigments that do not take part",
+        )),
+        Err(_) => {
+            let plain: String = parts.trim().replace(',', ".");
+            let plain = plain.trim_end_matches(|c: char| !c.is_ascii_digit());
+            let plain = plain.parse::<f64>().map_or_else(|_| "9".to_owned(), |n| n.to_string());
+            Err(Failure::usage(
+                format!("parts are plain numbers with a decimal point, found `{text}`"),
+                format!("try \"{name}={plain}\""),
+            ))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_that_cannot_be_used_say_why_and_what_to_write() {
+        assert_eq!(parsed_part("A=B=1.5").unwrap(), ("A=B", 1.5));
+        for (text, message, hint) in [
+            ("White", "a recipe takes NAME=PARTS", "\"Zinc White=9\""),
+            ("White=0", "a part is above 0, found `White=0`", "leave out"),
+            ("White=-1", "a part is above 0, found `White=-1`", "leave out"),
+            ("White=NaN", "a part is above 0", "leave out"),
+            ("White=1,5", "plain numbers with a decimal point, found `White=1,5`", "\"White=1.5\""),
+            ("White=90%", "plain numbers with a decimal point", "\"White=90\""),
+            ("White=90 g", "plain numbers with a decimal point", "\"White=90\""),
+            ("White=much", "plain numbers with a decimal point", "\"White=9\""),
+        ] {
+            let failure = parsed_part(text).unwrap_err();
+            let mut told = Vec::new();
+            let status = failure.report(&mut told);
+            let told = String::from_utf8(told).unwrap();
+            assert!(told.contains(message) && told.contains(hint), "{text}: {told}");
+            assert_eq!(status, 2, "{text}");
+        }
+        let nothing = parsed_recipe(&[], &PigmentLibrary::van_gogh_oils()).unwrap_err();
+        assert_eq!(nothing.to_string(), "no pigment is named");
+    }
 }

@@ -1,6 +1,8 @@
 //! `impasto match`: finds recipes for a target colour or spectrum, and prints them as text or rows. The
 //! table of recipes has columns for differences under each light, metamerism and reflectance.
 
+use std::path::Path;
+
 use calibrate::IlluminantChange;
 use calibrate::library::{AmountKind, PigmentLibrary};
 use calibrate::matching::{
@@ -36,7 +38,7 @@ use crate::surface::ground;
 pub(crate) struct Match {
     /// The pigment library (JSON) [default: the one in IMPASTO_LIBRARY, else
     /// the Van Gogh oils that ship], then target colours, one or more
-    #[arg(required = true, value_name = "[LIBRARY] TARGET")]
+    #[arg(required = true, value_name = "[LIBRARY] TARGET", allow_negative_numbers = true)]
     words: Vec<String>,
     #[command(flatten)]
     request: RequestOptions<MatchRequest>,
@@ -87,6 +89,7 @@ impl Match {
                 "add one, such as \"#4a7d8c\", 52,-10.5,8 or swatches.csv#NAME",
             ));
         }
+        check_words(path.as_deref(), texts)?;
         let options = self.options(&library, console)?;
         let search = library.recipe_search(&options)?;
         console.remarks(&search.remarks)?;
@@ -155,6 +158,25 @@ impl Match {
             ..request
         })
     }
+}
+
+/// Refuses targets that are words of another place: a library, or the parts of one CIELAB colour.
+fn check_words(library: Option<&Path>, texts: &[String]) -> Result<()> {
+    let is_json = |text: &&String| text.ends_with(".json") && Path::new(text.as_str()).is_file();
+    if let (None, Some(later)) = (library, texts.iter().find(is_json)) {
+        return Err(Failure::usage(
+            format!("{later} stands behind a target"),
+            format!("the library goes first: impasto match {later} \"{}\"", texts[0]),
+        ));
+    }
+    let numbers = texts.iter().filter(|text| text.parse::<f64>().is_ok()).count();
+    if texts.len() == 3 && numbers == 3 {
+        return Err(Failure::usage(
+            format!("a CIELAB colour is one word, found `{}`", texts.join(" ")),
+            format!("write {}", texts.join(",")),
+        ));
+    }
+    Ok(())
 }
 
 /// Parses `PIGMENT` or `PIGMENT=SHARE`.
