@@ -237,7 +237,7 @@ const NO_PIGMENTS: [&str; 47] = [
 /// Headings of columns of names in lower case without spaces and signs, the most specific first. We use a
 /// later one only if a table has none of the earlier ones. The last ones are numbers of samples, and the
 /// word `wavelength`, which stands above the names in tables where all other columns are wavelengths.
-const NAMES: [&str; 19] = [
+const NAMES: [&str; 32] = [
     "sample",
     "samplename",
     "dataname",
@@ -254,10 +254,32 @@ const NAMES: [&str; 19] = [
     "sampleid",
     "sampleno",
     "samplenumber",
+    "pigment",
+    "paint",
+    "material",
+    "color",
+    "colour",
+    "title",
+    "filename",
+    "file",
+    "code",
+    "id",
+    "number",
+    "no",
+    "nr",
     "wavelength",
     "wavelengthnm",
     "nm",
 ];
+
+/// First of [`NAMES`] that stands above other columns too. We say that we took it for the names.
+const GUESSED: &str = "pigment";
+
+/// Whether a column headed `heading` usually holds something else than the names of samples.
+pub(super) fn is_guessed_name(heading: &str) -> bool {
+    let first = NAMES.iter().position(|name| *name == GUESSED).unwrap_or(NAMES.len());
+    name_rank(heading).is_some_and(|rank| rank >= first)
+}
 
 /// First of [`NAMES`] that names samples only where all other columns are wavelengths.
 const OVER_NAMES: &str = "wavelength";
@@ -496,6 +518,17 @@ mod tests {
         }
         assert_eq!(found(&["SAMPLE_ID", "SAMPLE_NAME", "400"]), Some(1));
         assert_eq!(found(&["Red", "400", "410"]), None);
+    }
+
+    #[test]
+    fn other_columns_of_text_are_names_where_there_is_no_better_one() {
+        for heading in
+            ["ID", "Pigment", "Paint", "Colour", "File", "Code", "Material", "Title", "No."]
+        {
+            assert_eq!(found(&[heading, "400", "410"]), Some(0), "{heading}");
+            assert_eq!(found(&[heading, "400", "sample"]), Some(2), "{heading}");
+            assert!(is_guessed_name(heading) && !is_guessed_name("sample"), "{heading}");
+        }
     }
 
     #[test]

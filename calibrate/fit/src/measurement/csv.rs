@@ -12,7 +12,7 @@ use spectra::csv_table::{CsvTableError, RowNumbers};
 use super::column::{Column, HeadingRow, TableKind};
 use super::csv_rows::{CsvRows, RawRows};
 use super::error::MeasurementError;
-use super::table::{MeasurementTable, Scale, ScaleChoice, grid_of, on_grid};
+use super::table::{DarkReadings, MeasurementTable, Scale, ScaleChoice, grid_of, on_grid};
 
 impl MeasurementTable {
     /// Reads the measurement table in `bytes`, the content of `file`.
@@ -60,7 +60,7 @@ impl MeasurementTable {
     fn read(table: CsvRows, scale: ScaleChoice) -> Result<Self, MeasurementError> {
         let spectra_only = table.spectra_only;
         let mut readings = table.readings()?;
-        let scale = table.scaled(&mut readings, scale)?;
+        let (scale, dark) = table.scaled(&mut readings, scale)?;
         let wavelengths = table.columns.iter().filter_map(|column| match column {
             Column::Wavelength(nm) => Some(*nm),
             _ => None,
@@ -79,6 +79,7 @@ impl MeasurementTable {
         let pigments = if spectra_only { Vec::new() } else { table.pigments() };
         let mut remarks = if spectra_only { Vec::new() } else { table.remarks() };
         remarks.extend(table.left_out.clone());
+        remarks.extend(dark);
         Ok(Self { pigments, grid, resampled_from, scale, readings, remarks })
     }
 }
@@ -173,7 +174,14 @@ impl LargeCsv {
         let mut scale = Scale::Fraction;
         let mut pigments: Vec<String> = Vec::new();
         self.each_piece(|bytes| {
-            let part = self.part(bytes, choice)?;
+            let part = match self.part(bytes, choice) {
+                // A piece may hold the black patches of a whole file.
+                Err(MeasurementError::MixedScale { .. }) => {
+                    let percent = ScaleChoice::Known(Scale::Percent);
+                    self.part(bytes, LargeCsvChoice { scale: percent, ..choice })?
+                }
+                part => part?,
+            };
             if part.scale == Scale::Percent {
                 scale = Scale::Percent;
             }
@@ -215,10 +223,13 @@ impl LargeCsv {
         unit_is_found: bool,
     ) -> Result<MeasurementTable, LargeCsvError> {
         let mut whole: Option<MeasurementTable> = None;
+        let mut dark = DarkReadings::default();
         self.each_piece(|bytes| {
             let mut part = self.part(bytes, known)?;
             if unit_is_found && part.scale == Scale::Percent {
-                self.check_percent(&part)?;
+                for r in &part.readings {
+                    dark.add(r.row, &r.sample, 100.0 * largest(&r.reflectance));
+                }
             }
             match &mut whole {
                 None => whole = Some(part),
@@ -226,8 +237,9 @@ impl LargeCsv {
             }
             Ok(())
         })?;
-        let empty = MeasurementError::Empty(self.file.clone());
-        whole.ok_or(LargeCsvError::Measurement(empty))
+        let mut whole = whole.ok_or_else(|| MeasurementError::Empty(self.file.clone()))?;
+        whole.remarks.extend(dark.checked(&self.file)?);
+        Ok(whole)
     }
 
     /// Whether a cell of the column holds a number in any piece.
@@ -256,19 +268,6 @@ impl LargeCsv {
             return MeasurementTable::spectra_from_csv(&self.file, bytes, choice.scale);
         }
         MeasurementTable::from_csv_with(&self.file, bytes, choice.scale, choice.pigments)
-    }
-
-    /// Refuses readings that look like fractions in a file of percent. A file that we read whole
-    /// gets the same check.
-    fn check_percent(&self, part: &MeasurementTable) -> Result<(), MeasurementError> {
-        let mixed = part.readings.iter().find(|r| largest(&r.reflectance) <= 0.01);
-        mixed.map_or(Ok(()), |reading| {
-            Err(MeasurementError::MixedScale {
-                file: self.file.clone(),
-                row: reading.row,
-                largest: 100.0 * largest(&reading.reflectance),
-            })
-        })
     }
 
     /// Calls `read` with one piece of the file after another. Each piece is the header followed by whole
@@ -364,15 +363,37 @@ mod tests {
 
     #[test]
     fn faults_in_pieces_name_the_row_of_the_file() {
-        for (place, value) in [(25, "x"), (33, "0.5"), (2, "-40")] {
+        for (place, value) in [(25, "x"), (2, "-40")] {
             let mut text = "sample,White,400,500\n".to_owned();
             (0..40).for_each(|at| text += &row(at, if at == place { value } else { "40" }));
-            let text = text.replace("0.5,30", "0.5,0.4");
             let [pieces, whole] = both(&text);
             let pieces = pieces.unwrap_err();
             let whole = whole.unwrap_err();
             assert_eq!(pieces, whole);
             assert!(whole.to_string().contains(&format!("row {}", place + 2)), "{whole}");
+        }
+    }
+
+    #[test]
+    fn a_black_patch_of_a_file_in_percent_is_read_and_a_second_group_is_refused() {
+        for (each, is_read) in [(33, true), (7, true), (3, false), (2, false)] {
+            let mut text = "sample,White,400,500\n".to_owned();
+            for at in 0..40 {
+                text += &row(at, if at % each == each - 1 { "0.5" } else { "40" });
+            }
+            let [pieces, whole] = both(&text.replace("0.5,30", "0.5,0.4"));
+            assert_eq!(pieces, whole, "one in {each}");
+            match whole {
+                Ok(table) => {
+                    let remark = format!("s{} is read as at most 0.5 %", each - 1);
+                    assert!(table.remarks.last().unwrap().starts_with(&remark), "{table:?}");
+                    assert!(is_read && table.readings[each - 1].reflectance[0] == 0.005);
+                }
+                Err(MeasurementError::MixedScale { row, largest, .. }) => {
+                    assert_eq!((is_read, row, largest), (false, each as u64 + 1, 0.5));
+                }
+                Err(error) => panic!("{error}"),
+            }
         }
     }
 

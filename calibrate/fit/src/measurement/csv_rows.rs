@@ -11,10 +11,10 @@ use spectra::instrument::FileText;
 
 use super::column::{
     Column, CsvRow, HeadingRow, TableKind, columns, excludes_specular, filled_column,
-    is_wavelength_heading, name_rank, plain_heading,
+    is_guessed_name, is_wavelength_heading, name_rank, plain_heading,
 };
 use super::error::MeasurementError;
-use super::table::{Film, Reading, Scale, ScaleChoice};
+use super::table::{DarkReadings, Film, Reading, Scale, ScaleChoice};
 
 /// No reflectance is greater than this fraction. If you see a greater value, its unit is wrong.
 const LARGEST_REFLECTANCE: f64 = 2.0;
@@ -144,7 +144,11 @@ impl CsvRows {
         let excluded = (excluded.count() > 0).then(|| {
             format!("{file}: readings without the specular component (SCE) are left out; those with it are read")
         });
-        let left_out = content.remark.into_iter().chain(excluded);
+        let named_by = columns.iter().position(|column| *column == Column::Sample);
+        let named_by = named_by.map(|at| &headers[at]).filter(|heading| is_guessed_name(heading));
+        let named_by =
+            named_by.map(|heading| format!("{file}: samples are named by the column `{heading}`"));
+        let left_out = content.remark.into_iter().chain(excluded).chain(named_by);
         let file = file.into();
         Ok(Self {
             file,
@@ -287,24 +291,21 @@ impl CsvRows {
         Ok(Reading { amounts: amounts.into(), reflectance: reflectance.into(), ..reading })
     }
 
-    /// Converts the readings to fractions, and returns the unit that they had.
+    /// Converts the readings to fractions, and returns the unit that they had, with a remark on dark ones.
     pub(super) fn scaled(
         &self,
         readings: &mut [Reading],
         choice: ScaleChoice,
-    ) -> Result<Scale, MeasurementError> {
+    ) -> Result<(Scale, Option<String>), MeasurementError> {
+        let mut remark = None;
         let scale = match choice {
             ScaleChoice::Known(scale) => scale,
             ScaleChoice::ByFile => {
                 let scale = Scale::of_largest(readings.iter().map(largest).fold(0.0, f64::max));
-                // No film reflects below 1 % at every wavelength, not even bone black.
-                let mixed = readings.iter().find(|r| scale == Scale::Percent && largest(r) <= 1.0);
-                if let Some(reading) = mixed {
-                    return Err(MeasurementError::MixedScale {
-                        file: self.file.to_string(),
-                        row: reading.row,
-                        largest: largest(reading),
-                    });
+                if scale == Scale::Percent {
+                    let mut dark = DarkReadings::default();
+                    readings.iter().for_each(|r| dark.add(r.row, &r.sample, largest(r)));
+                    remark = dark.checked(&self.file)?;
                 }
                 scale
             }
@@ -325,7 +326,7 @@ impl CsvRows {
                 *value = fraction;
             }
         }
-        Ok(scale)
+        Ok((scale, remark))
     }
 }
 

@@ -1,5 +1,6 @@
 //! Spectra of an instrument's file as readings of paint.
 
+use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
 use spectra::Grid;
@@ -7,7 +8,9 @@ use spectra::instrument::{MeasuredQuantity, MeasuredSpectrum, Role, Unit};
 
 use super::column::MEASURABLE_NM;
 use super::error::MeasurementError;
-use super::table::{Film, MeasurementTable, Reading, Scale, ScaleChoice, grid_of, on_grid};
+use super::table::{
+    DarkReadings, Film, MeasurementTable, Reading, Scale, ScaleChoice, grid_of, on_grid,
+};
 use spectra::csv_table::CellPlace;
 
 /// A table of readings may have these wavelengths in nm.
@@ -55,7 +58,8 @@ impl MeasurementTable {
         for spectrum in &mut spectra {
             spectrum.cut_to_band(file)?;
         }
-        let scale = scale(file, &mut spectra, choice.scale)?;
+        let (scale, dark) = scale(file, &mut spectra, choice.scale)?;
+        remarks.extend(dark);
         for spectrum in &mut spectra {
             spectrum.cut_noise(file, &mut remarks)?;
         }
@@ -68,6 +72,7 @@ impl MeasurementTable {
             remarks.push(format!("spectra on different wavelengths brought to {grid}"));
             (grid, count)
         };
+        remarks.extend(repeated(&spectra));
         let resampled = alike && Grid::through(&first.wavelengths_nm).is_none();
         let readings = spectra.into_iter().map(|spectrum| Reading {
             file: file.into(),
@@ -88,6 +93,25 @@ impl MeasurementTable {
             remarks,
         })
     }
+}
+
+/// A remark if spectra have one name, because readings of one name are averaged.
+fn repeated(spectra: &[Spectrum<'_>]) -> Option<String> {
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for spectrum in spectra {
+        *counts.entry(&spectrum.record.name).or_default() += 1;
+    }
+    let first = spectra.iter().find(|spectrum| counts[spectrum.record.name.as_str()] > 1)?;
+    let first = first.record.name.as_str();
+    let count = counts[first];
+    let samples = documents::counted(counts.len(), "sample");
+    let others = counts.values().filter(|count| **count > 1).count() - 1;
+    let others = if others > 0 { format!(", and so are {others} others") } else { String::new() };
+    Some(format!(
+        "{} spectra, {samples}: {} is the mean of {count}{others}",
+        spectra.len(),
+        name(first)
+    ))
 }
 
 /// Name for a table: without control characters, and not empty.
@@ -156,12 +180,12 @@ fn reflectances<'a>(
         .collect())
 }
 
-/// Determines the unit of every spectrum, and returns the unit of the first.
+/// Determines the unit of every spectrum, and returns the unit of the first, with a remark on dark ones.
 fn scale(
     file: &str,
     spectra: &mut [Spectrum<'_>],
     choice: ScaleChoice,
-) -> Result<Scale, MeasurementError> {
+) -> Result<(Scale, Option<String>), MeasurementError> {
     let stated = |record: &MeasuredSpectrum| match (choice, record.unit) {
         (ScaleChoice::Known(scale), _) => Some(scale),
         (ScaleChoice::ByFile, Unit::Percent) => Some(Scale::Percent),
@@ -170,16 +194,14 @@ fn scale(
     };
     let unstated = spectra.iter().filter(|s| stated(s.record).is_none()).map(Spectrum::largest);
     let found = Scale::of_largest(unstated.fold(0.0, f64::max));
+    let mut dark = DarkReadings::default();
     for spectrum in &mut *spectra {
-        let largest = spectrum.largest();
         spectrum.scale = stated(spectrum.record).unwrap_or(found);
-        if stated(spectrum.record).is_none() && found == Scale::Percent && largest <= 1.0 {
-            let file = file.to_owned();
-            let row = spectrum.record.line as u64;
-            return Err(MeasurementError::MixedScale { file, row, largest });
+        if stated(spectrum.record).is_none() && found == Scale::Percent {
+            dark.add(spectrum.record.line as u64, &spectrum.record.name, spectrum.largest());
         }
     }
-    Ok(spectra[0].scale)
+    Ok((spectra[0].scale, dark.checked(file)?))
 }
 
 impl Spectrum<'_> {
@@ -318,4 +340,37 @@ fn last_nm(s: &Spectrum<'_>) -> f64 {
 
 fn first_nm(s: &Spectrum<'_>) -> f64 {
     s.wavelengths_nm[0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spectra::instrument::read;
+
+    fn table(text: &str) -> Result<MeasurementTable, MeasurementError> {
+        let records = read("f.txt", text.as_bytes(), None).unwrap().spectra;
+        MeasurementTable::from_records("f.txt", &records, RecordChoice::default())
+    }
+
+    #[test]
+    fn columns_of_one_name_are_told() {
+        let text = "nm,A:1,B:3,B:3\n400,0.1,0.2,0.4\n410,0.1,0.2,0.4\n420,0.1,0.2,0.4\n";
+        let found = table(text).unwrap();
+        assert_eq!(found.remarks, ["3 spectra, 2 samples: B:3 is the mean of 2"]);
+        assert!(table(&text.replacen("B:3", "B:2", 1)).unwrap().remarks.is_empty());
+    }
+
+    #[test]
+    fn a_black_column_of_a_table_in_percent_is_percent() {
+        let mut text = "nm,black,a,b,c,d\n".to_owned();
+        for nm in [400, 410, 420, 430] {
+            text += &format!("{nm},0.75,20,30,40,50\n");
+        }
+        let found = table(&text).unwrap();
+        assert_eq!(found.readings[0].reflectance[0], 0.0075);
+        let remark = "black is read as at most 0.75 %, since the file is in percent";
+        assert_eq!(found.remarks, [remark]);
+        let two = text.replace(",20,30", ",0.2,0.3");
+        assert!(matches!(table(&two), Err(MeasurementError::MixedScale { .. })));
+    }
 }

@@ -156,6 +156,44 @@ impl Scale {
     }
 }
 
+/// Readings of a file in percent that have no value above 1. They are black, or fractions among percent.
+#[derive(Debug, Default)]
+pub(super) struct DarkReadings {
+    all: usize,
+    count: usize,
+    /// Row, sample and largest value of the first.
+    first: Option<(u64, String, f64)>,
+}
+
+/// If at least one reading in so many is dark, the file holds two groups, and not a black patch or two.
+const ONE_DARK_IN: usize = 4;
+
+impl DarkReadings {
+    /// Counts a reading. `largest` is its largest value in percent.
+    pub(super) fn add(&mut self, row: u64, sample: &str, largest: f64) {
+        self.all += 1;
+        if largest <= 1.0 {
+            self.count += 1;
+            self.first.get_or_insert_with(|| (row, sample.to_owned(), largest));
+        }
+    }
+
+    /// A remark on the dark readings, if there are any. Where they may be fractions, this fails.
+    pub(super) fn checked(self, file: &str) -> Result<Option<String>, MeasurementError> {
+        let Some((row, sample, largest)) = self.first else { return Ok(None) };
+        if ONE_DARK_IN * self.count >= self.all {
+            return Err(MeasurementError::MixedScale { file: file.to_owned(), row, largest });
+        }
+        let others = match self.count - 1 {
+            0 => String::new(),
+            more => format!(", and {}", documents::counted(more, "other dark reading")),
+        };
+        Ok(Some(format!(
+            "{sample} is read as at most {largest} %, since the file is in percent{others}"
+        )))
+    }
+}
+
 const LISTED: usize = 8;
 
 /// Mean of the repeated readings of one film or card.
