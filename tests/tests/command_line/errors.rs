@@ -99,7 +99,7 @@ fn wrong_options_could_not_run() {
 fn parts_that_make_no_mixture_are_refused() {
     for recipe in [["Zinc White=0"], ["Zinc White=-1"], ["Zinc White=NaN"]] {
         let run = impasto(&["mix", &library(), recipe[0]]);
-        assert_eq!(run.status, 1, "{recipe:?}: {}", run.err);
+        assert_eq!(run.status, 2, "{recipe:?}: {}", run.err);
     }
 }
 
@@ -117,7 +117,7 @@ fn a_library_with_a_fault_is_refused_with_the_reason() {
         ("\"name\": \"Bone Black\"", "\"name\": \"Viridian\"", "occurs twice"),
         ("\"k2\": 0.6", "\"k2\": 1.6", "1.6"),
         ("\"reference\": \"Zinc White\"", "\"reference\": \"Chalk\"", "not in the library"),
-        ("{", "[", "`format`"),
+        ("{", "[", "not a pigment library"),
     ] {
         assert!(sound.contains(from), "{from}");
         std::fs::write(&path, sound.replacen(from, to, 1)).unwrap();
@@ -465,7 +465,8 @@ fn quoted_decimal_commas_among_decimal_points() {
 
 #[test]
 fn semicolons_without_a_sample_column() {
-    let file = SOUND.replace("sample", "paint").replace(',', ";");
+    let unnamed: Vec<_> = SOUND.lines().map(|row| row.split_once(',').unwrap().1).collect();
+    let file = unnamed.join("\n").replace(',', ";");
     refused(file.as_bytes(), &["row 1", "no column `sample`"]);
 }
 
@@ -489,7 +490,15 @@ fn semicolons_tabs_and_decimal_commas_are_read() {
 
 #[test]
 fn missing_sample_column() {
-    refused(&changed("sample,", "paint,"), &["row 1", "no column `sample`"]);
+    let unnamed: Vec<_> = SOUND.lines().map(|row| row.split_once(',').unwrap().1).collect();
+    refused(unnamed.join("\n").as_bytes(), &["row 1", "no column `sample`"]);
+}
+
+#[test]
+fn another_heading_of_names_is_told() {
+    let run = fit(&changed("sample,", "paint,"));
+    assert_eq!(run.status, 0, "{}", run.err);
+    assert!(run.err.contains("samples are named by the column `paint`"), "{}", run.err);
 }
 
 #[test]
