@@ -372,5 +372,24 @@ mod tests {
         assert_eq!(found.remarks, [remark]);
         let two = text.replace(",20,30", ",0.2,0.3");
         assert!(matches!(table(&two), Err(MeasurementError::MixedScale { .. })));
+        // One of three is a black patch, one of two may be either.
+        let of = |columns: &str| {
+            table(
+                &text
+                    .lines()
+                    .map(|row| {
+                        let cells: Vec<&str> = row.split(',').collect();
+                        columns
+                            .chars()
+                            .map(|at| cells[at.to_digit(10).unwrap() as usize])
+                            .collect::<Vec<_>>()
+                            .join(",")
+                            + "\n"
+                    })
+                    .collect::<String>(),
+            )
+        };
+        assert_eq!(of("0123").unwrap().readings[0].reflectance[0], 0.0075);
+        assert!(matches!(of("012"), Err(MeasurementError::MixedScale { .. })));
     }
 }

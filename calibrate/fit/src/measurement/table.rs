@@ -165,7 +165,8 @@ pub(super) struct DarkReadings {
     first: Option<(u64, String, f64)>,
 }
 
-/// If at least one reading in so many is dark, the file holds two groups, and not a black patch or two.
+/// If several readings, and at least one in so many, are dark, the file holds two groups, and not a
+/// black patch or two.
 const ONE_DARK_IN: usize = 4;
 
 impl DarkReadings {
@@ -181,7 +182,8 @@ impl DarkReadings {
     /// A remark on the dark readings, if there are any. Where they may be fractions, this fails.
     pub(super) fn checked(self, file: &str) -> Result<Option<String>, MeasurementError> {
         let Some((row, sample, largest)) = self.first else { return Ok(None) };
-        if ONE_DARK_IN * self.count >= self.all {
+        let is_a_group = self.count > 1 || self.all < 3;
+        if is_a_group && ONE_DARK_IN * self.count >= self.all {
             return Err(MeasurementError::MixedScale { file: file.to_owned(), row, largest });
         }
         let others = match self.count - 1 {

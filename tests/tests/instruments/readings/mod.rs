@@ -5,6 +5,8 @@
 //! make a reader panic.
 mod workbooks;
 
+pub(super) use workbooks::workbook;
+
 use std::path::PathBuf;
 
 use calibrate::{ReadingOptions, Readings, ReadingsError};

@@ -16,20 +16,24 @@ const OFFICE: &str = "http://schemas.openxmlformats.org/officeDocument/2006/rela
 const PACKAGE: &str = "http://schemas.openxmlformats.org/package/2006/relationships";
 
 /// A workbook with the cells of a CSV from row `first` on in its only sheet, `Readings`.
-fn workbook(csv: &str, first: usize) -> Vec<u8> {
+pub(crate) fn workbook(csv: &str, first: usize) -> Vec<u8> {
     workbook_of(&[("Readings", csv)], first)
 }
 
 /// A workbook with sheets of these names. Each has the cells of a CSV from row `first` on.
 fn workbook_of(sheets: &[(&str, &str)], first: usize) -> Vec<u8> {
     fn cell(text: &str, row: usize, column: usize) -> String {
-        let letter = char::from(b'A' + u8::try_from(column).unwrap());
+        let letter = |at: usize| char::from(b'A' + u8::try_from(at).unwrap());
+        let column = match column.checked_sub(26) {
+            None => letter(column).to_string(),
+            Some(rest) => format!("{}{}", letter(rest / 26), letter(rest % 26)),
+        };
         match text {
             "" => String::new(),
             text if text.parse::<f64>().is_ok() => {
-                format!("<c r=\"{letter}{row}\"><v>{text}</v></c>")
+                format!("<c r=\"{column}{row}\"><v>{text}</v></c>")
             }
-            text => format!("<c r=\"{letter}{row}\" t=\"str\"><v>{text}</v></c>"),
+            text => format!("<c r=\"{column}{row}\" t=\"str\"><v>{text}</v></c>"),
         }
     }
     let mut list = String::new();
