@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use calibrate::Readings;
 use calibrate::evaluate::Viewing;
 use calibrate::library::PigmentLibrary;
-use calibrate::matching::{ColorTarget, PriceList, ViewingCondition, parse_price};
+use calibrate::matching::{ColorTarget, PriceList, TargetBook, ViewingCondition, parse_price};
 use calibrate::measurement::{
     AveragedSpectra, AveragedSpectrum, Film, MeasurementTable, Scale, ScaleChoice,
 };
@@ -16,7 +16,7 @@ use calibrate::visible_band::check_visible_band;
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, Args};
 use documents::counted_as;
-use documents::file::is_there;
+use documents::file::{is_there, read};
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
@@ -283,22 +283,63 @@ pub(crate) fn select_spectra(
     Ok(Some(SelectedSpectra { file: file.to_owned(), averaged }))
 }
 
-/// Parses a target: one colour as `#rrggbb` or `L,a,b`, or the spectra of `FILE` or `FILE#SAMPLE`.
+/// Options for target colours.
+#[derive(Debug, Clone, Default, Args)]
+pub(crate) struct TargetOptions {
+    /// Light of a table of target colours (L, a, b or X, Y, Z), LIGHT or LIGHT/OBSERVER, such as D50/2
+    /// [default: the one that its headings name, else D65/2]
+    #[arg(long, value_name = "LIGHT", value_parser = light_and_observer)]
+    target_light: Option<Viewing>,
+}
+
+/// Parses `LIGHT` or `LIGHT/OBSERVER`.
+fn light_and_observer(text: &str) -> std::result::Result<Viewing, String> {
+    let pair = text.rsplit_once('/').and_then(|(light, observer)| {
+        let observer = Observer::named(observer).ok()?;
+        Some((light, observer))
+    });
+    let (light, observer) = pair.unwrap_or((text, Observer::default()));
+    let illuminant = light_from_text(light).map_err(|error| error.to_string())?;
+    Ok(Viewing { illuminant, observer })
+}
+
+/// Parses a target: one colour as `#rrggbb` or `L,a,b`, or the named colours or spectra of `FILE` or
+/// `FILE#NAME`.
 pub(crate) fn targets(
     text: &str,
+    options: &TargetOptions,
     reading: &ReadingOptions,
     console: &mut Console<'_>,
 ) -> Result<Vec<ColorTarget>> {
+    let (file, name) = split_file_and_name(text);
+    let path = Path::new(file);
+    if is_there(path) {
+        let light = options.target_light.as_ref();
+        if let Some(book) = TargetBook::read(file, &read(path)?, name, light)? {
+            console.remarks(&book.remarks)?;
+            return Ok(book.targets);
+        }
+    }
     if let Some(selected) = select_spectra(text, reading, console)? {
         return measured(selected, console);
     }
-    let target = text.parse().map_err(|_| {
-        Failure::usage(
-            format!("a target takes #rrggbb, L,a,b or an existing file of spectra, found `{text}`"),
-            "try \"#4a7d8c\", 52,-10.5,8 or swatches.csv#NAME",
-        )
-    })?;
-    Ok(vec![target])
+    if let Ok(target) = text.parse() {
+        return Ok(vec![target]);
+    }
+    if is_path(file, name) {
+        read(path)?;
+    }
+    Err(Failure::usage(
+        format!("a target takes #rrggbb, L,a,b or a file of colours or spectra, found `{text}`"),
+        "try \"#4a7d8c\", 52,-10.5,8, swatches.csv#NAME or book.ase",
+    ))
+}
+
+/// Whether a text that names no file looks as if it should: it has a folder, an ending or a name behind it.
+fn is_path(file: &str, name: Option<&str>) -> bool {
+    let ending = Path::new(file).extension().and_then(|ending| ending.to_str());
+    let has_ending = ending.is_some_and(|ending| ending.starts_with(char::is_alphabetic));
+    !file.is_empty() && (name.is_some() || has_ending || file.contains(['/', '\\']))
 }
 
 /// Makes targets of the spectra of paint in `selected`. Spectra of bare cards are skipped unless
@@ -343,4 +384,36 @@ pub(crate) fn prices(texts: &[String]) -> Result<PriceList> {
         prices.set(name, parse_price(price, text)?)?;
     }
     Ok(prices)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_that_name_files_are_told_from_colours() {
+        for (text, expected) in [
+            ("book.ase", true),
+            ("book.csv#RAL 5012", true),
+            ("folder/book", true),
+            ("book#Sky", true),
+            ("teal", false),
+            ("52,-10.5,8x", false),
+            ("#4a7d8", false),
+        ] {
+            let (file, name) = split_file_and_name(text);
+            assert_eq!(is_path(file, name), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_light_may_name_its_observer() {
+        let names = |text: &str| {
+            let viewing = light_and_observer(text).unwrap();
+            (viewing.illuminant.name().to_owned(), viewing.observer.name())
+        };
+        assert_eq!(names("D50"), ("D50".to_owned(), "1931-2"));
+        assert_eq!(names("D65/10"), ("D65".to_owned(), "1964-10"));
+        assert!(light_and_observer("D64/2x").is_err());
+    }
 }
