@@ -26,16 +26,22 @@ use spectra::instrument::split_file_and_name;
 use spectra::referencing::{DarkFiles, ReferenceFiles, TileSource};
 use spectra::{Grid, Observer, Reflectance, Spectrum, ViewingNames, light_from_text};
 
+/// Heading of the options for measurement files.
+const FILES: &str = "Files of instruments";
+
 /// Options for how measurement files are read.
 #[derive(Debug, Clone, Default, Args)]
+#[command(next_help_heading = FILES)]
 pub(crate) struct ReadingOptions {
-    /// Readings are in percent [default: guessed from all readings of a file]
+    /// Readings are in percent [default: guessed]
+    ///
+    /// Guessed from all readings of a file.
     #[arg(long, conflicts_with = "fraction")]
     percent: bool,
     /// Readings are fractions, white near 1
     #[arg(long)]
     fraction: bool,
-    /// Format of the measurement files [default: found by content]
+    /// Format of the files [default: by content]
     ///
     /// csv: a column `sample` (or Name, Sample ID ..), then optionally film, backing, thickness_mm, one
     /// per pigment, then the wavelengths; commas, semicolons or tabs, or a sheet of .xlsx. cgats:
@@ -47,9 +53,9 @@ pub(crate) struct ReadingOptions {
     /// names the sheet.
     #[arg(long, value_name = "NAME", value_parser = format_names(), hide_possible_values = true)]
     format: Option<String>,
-    /// Read values that an instrument's file calls transmittance as reflectance
+    /// Read transmittance as reflectance
     ///
-    /// For spectrometers whose program measured in transmission mode over a white tile. Counts and
+    /// Takes values that an instrument's file calls transmittance. For spectrometers whose program measured in transmission mode over a white tile. Counts and
     /// the power of lamps are never read as reflectance.
     #[arg(long)]
     as_reflectance: bool,
@@ -183,31 +189,36 @@ pub(crate) fn library(path: &Path) -> Result<PigmentLibrary> {
 
 /// References that convert counts to reflectance.
 #[derive(Debug, Clone, Default, Args)]
+#[command(next_help_heading = FILES)]
 pub(crate) struct ReferencingOptions {
-    /// White reading, FILE or FILE#NAME, for measurement files that hold counts
+    /// White reading for counts, FILE or FILE#NAME
+    ///
+    /// For measurement files that hold the counts of a detector.
     ///
     /// Reflectance = tile x (sample - dark) / (white - dark), sample and white each divided by their
     /// integration time where the files state it. Saturated counts or too little light from 380 to
     /// 730 nm are an error; outside this range such wavelengths are left out.
     #[arg(long, value_name = "FILE")]
     white_reading: Option<String>,
-    /// Dark reading of sample and white, FILE or FILE#NAME; 0 if subtracted already
+    /// Dark reading, FILE or FILE#NAME, or 0
     ///
-    /// Dark counts are not scaled by time: if sample and white have different integration times,
+    /// Dark reading of sample and white, 0 if it is subtracted already. Dark counts are not scaled by time: if sample and white have different integration times,
     /// give a dark reading for each.
     #[arg(long, alias = "dark", value_name = "FILE")]
     dark_reading: Vec<String>,
-    /// Reflectance of the white itself: FILE, FILE#NAME or a fraction [default: 1]
+    /// Reflectance of the white [default: 1]
+    ///
+    /// FILE, FILE#NAME or a fraction.
     #[arg(long, value_name = "FILE|0.99")]
     tile: Option<String>,
-    /// Largest count of the detector, such as 65535 [default: guessed]
+    /// Largest count, such as 65535 [default: guessed]
     ///
-    /// Guessed from a maximum of 4095, 16383 or 65535, or from neighbouring values that share the
+    /// Largest count of the detector. Guessed from a maximum of 4095, 16383 or 65535, or from neighbouring values that share the
     /// maximum.
-    #[arg(long, value_name = "COUNT")]
+    #[arg(long, value_name = "COUNT", hide_short_help = true)]
     full_scale: Option<f64>,
     /// Least signal of the white at every wavelength, as a fraction of its peak [default: 0.01]
-    #[arg(long, value_name = "SHARE")]
+    #[arg(long, value_name = "SHARE", hide_short_help = true)]
     least_light: Option<f64>,
 }
 
