@@ -16,7 +16,7 @@ use calibrate::visible_band::check_visible_band;
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, Args};
 use documents::counted_as;
-use documents::file::{is_there, read};
+use documents::file::{is_there, looks_like_path, read};
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
@@ -337,20 +337,13 @@ pub(crate) fn targets(
     if let Ok(target) = text.parse() {
         return Ok(vec![target]);
     }
-    if is_path(file, name) {
+    if looks_like_path(text) {
         read(path)?;
     }
     Err(Failure::usage(
         format!("a target takes #rrggbb, L,a,b or a file of colours or spectra, found `{text}`"),
         "try \"#4a7d8c\", 52,-10.5,8, swatches.csv#NAME or book.ase",
     ))
-}
-
-/// Whether a text that names no file looks as if it should: it has a folder, an ending or a name behind it.
-fn is_path(file: &str, name: Option<&str>) -> bool {
-    let ending = Path::new(file).extension().and_then(|ending| ending.to_str());
-    let has_ending = ending.is_some_and(|ending| ending.starts_with(char::is_alphabetic));
-    !file.is_empty() && (name.is_some() || has_ending || file.contains(['/', '\\']))
 }
 
 /// Makes targets of the spectra of paint in `selected`. Spectra of bare cards are skipped unless
@@ -382,13 +375,13 @@ fn measured(selected: SelectedSpectra, console: &mut Console<'_>) -> Result<Vec<
 pub(crate) fn prices(texts: &[String]) -> Result<PriceList> {
     let mut prices = PriceList::default();
     for text in texts {
-        if is_there(Path::new(text)) {
+        if is_there(Path::new(text)) || !text.contains('=') && looks_like_path(text) {
             prices.add_file(text)?;
             continue;
         }
         let (name, price) = text.rsplit_once('=').ok_or_else(|| {
             Failure::usage(
-                format!("--cost takes NAME=PRICE or an existing CSV file, found `{text}`"),
+                format!("--cost takes NAME=PRICE or a CSV file, found `{text}`"),
                 "try --cost \"Cobalt Blue=0.9\" or --cost prices.csv",
             )
         })?;
@@ -400,22 +393,6 @@ pub(crate) fn prices(texts: &[String]) -> Result<PriceList> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn words_that_name_files_are_told_from_colours() {
-        for (text, expected) in [
-            ("book.ase", true),
-            ("book.csv#RAL 5012", true),
-            ("folder/book", true),
-            ("book#Sky", true),
-            ("teal", false),
-            ("52,-10.5,8x", false),
-            ("#4a7d8", false),
-        ] {
-            let (file, name) = split_file_and_name(text);
-            assert_eq!(is_path(file, name), expected, "{text}");
-        }
-    }
 
     #[test]
     fn a_light_may_name_its_observer() {

@@ -752,6 +752,7 @@ pub enum RecipeError {
     },
     /// A part, or the sum of all parts, is out of range.
     #[error("parts are 0 to 1e12 and sum to 1e-12 or more, found `{0}`")]
+    #[fault(Setting)]
     Parts(f64),
 }
 
