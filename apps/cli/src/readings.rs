@@ -299,19 +299,18 @@ pub(crate) fn select_spectra(
 pub(crate) struct TargetOptions {
     /// Light of a table of target colours (L, a, b or X, Y, Z), LIGHT or LIGHT/OBSERVER, such as D50/2
     /// [default: the one that its headings name, else D65/2]
-    #[arg(long, value_name = "LIGHT", value_parser = light_and_observer)]
-    target_light: Option<Viewing>,
+    #[arg(long, value_name = "LIGHT")]
+    target_light: Option<String>,
 }
 
-/// Parses `LIGHT` or `LIGHT/OBSERVER`.
-fn light_and_observer(text: &str) -> std::result::Result<Viewing, String> {
+/// Reads the light and, if it is named, the observer of `LIGHT` or `LIGHT/OBSERVER`.
+fn light_and_observer(text: &str) -> Result<Viewing> {
     let pair = text.rsplit_once('/').and_then(|(light, observer)| {
         let observer = Observer::named(observer).ok()?;
         Some((light, observer))
     });
     let (light, observer) = pair.unwrap_or((text, Observer::default()));
-    let illuminant = light_from_text(light).map_err(|error| error.to_string())?;
-    Ok(Viewing { illuminant, observer })
+    Ok(Viewing { illuminant: light_from_text(light)?, observer })
 }
 
 /// Parses a target: one colour as `#rrggbb` or `L,a,b`, or the named colours or spectra of `FILE` or
@@ -324,9 +323,9 @@ pub(crate) fn targets(
 ) -> Result<Vec<ColorTarget>> {
     let (file, name) = split_file_and_name(text);
     let path = Path::new(file);
+    let light = options.target_light.as_deref().map(light_and_observer).transpose()?;
     if is_there(path) {
-        let light = options.target_light.as_ref();
-        if let Some(book) = TargetBook::read(file, &read(path)?, name, light)? {
+        if let Some(book) = TargetBook::read(file, &read(path)?, name, light.as_ref())? {
             console.remarks(&book.remarks)?;
             return Ok(book.targets);
         }

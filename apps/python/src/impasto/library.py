@@ -18,6 +18,7 @@ from impasto.light import Light, light_of
 from impasto.spectrum import Floats, Spectrum, floats, frozen, spectrum
 
 if TYPE_CHECKING:
+    from impasto._native import BookColor
     from impasto.matching import Match
 
 
