@@ -7,25 +7,42 @@ use std::fmt::{self, Display};
 /// A suggestion holds at most this many names.
 const MOST: usize = 3;
 
-/// Up to three of `known` that are spelt like `name`, the most similar first.
+/// A single word of a name is compared from this many letters.
+const SHORTEST_WORD: usize = 4;
+
+/// Up to three of `known` that are spelt like `name`, the most similar first. A single word is also compared
+/// with each word of the names.
 ///
 /// ```
 /// use documents::similar_names;
 /// assert_eq!(similar_names("viridan", ["Viridian", "Zinc White"]), ["Viridian"]);
+/// assert_eq!(similar_names("umbr", ["Raw Umber", "Zinc White"]), ["Raw Umber"]);
 /// ```
 #[must_use]
 pub fn similar_names<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     let name: Vec<char> = name.to_lowercase().chars().take(100).collect();
+    let is_word = name.len() >= SHORTEST_WORD && !name.contains(&' ');
     let mut ranked: Vec<_> = known
         .into_iter()
-        .map(|other| {
-            let letters: Vec<char> = other.to_lowercase().chars().collect();
-            (edit_distance(&name, &letters), other)
+        .filter_map(|other| {
+            let lower = other.to_lowercase();
+            // The whole name first, then its words.
+            let whole = edits(&name, &lower).map(|edits| (edits, false));
+            let words = lower.split_whitespace().filter(|word| word.len() >= SHORTEST_WORD);
+            let words = words.filter_map(|word| edits(&name, word).map(|edits| (edits, true)));
+            let nearest = whole.into_iter().chain(words.filter(|_| is_word)).min();
+            nearest.map(|rank| (rank, other))
         })
-        .filter(|(edits, other)| *edits <= (name.len().max(other.len()) / 3).max(1))
         .collect();
     ranked.sort_unstable();
     ranked.into_iter().take(MOST).map(|(_, other)| other).collect()
+}
+
+/// Edit distance between two names, if they are spelt alike: one edit in three letters, or one at all.
+fn edits(name: &[char], other: &str) -> Option<usize> {
+    let letters: Vec<char> = other.chars().collect();
+    let edits = edit_distance(name, &letters);
+    (edits <= (name.len().max(letters.len()) / 3).max(1)).then_some(edits)
 }
 
 /// The question "did you mean A or B?" with the names of `known` that are spelt like `name`. If

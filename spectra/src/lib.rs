@@ -27,6 +27,7 @@
 //! | colour differences | [`color::delta_e_ciede2000`] and its neighbours |
 //! | reflectance of a paint film | [`optics`] |
 //! | swatches of painting programs | [`swatch_file`] |
+//! | named colours of any file | [`color_book`] |
 //!
 //! In scope: wavelengths and grids, typed spectra and their resampling, the CIE observers
 //! and illuminants, colour and colour difference, and the optics of a paint film. Out of
@@ -47,6 +48,7 @@ mod viewing;
 mod color_temperature;
 mod color_rendering;
 pub mod swatch_file;
+pub mod color_book;
 pub mod optics;
 
 pub use color_rendering::{ColorFidelity, ColorRendering, ColorRenderingError, RenderingIndex};

@@ -47,6 +47,9 @@ pub fn light_from_text(text: &str) -> Result<Illuminant, LightError> {
     }
     let (file, spectrum) = split_file_and_name(text);
     if !file::is_there(Path::new(split_file_and_sheet(file).0)) {
+        if file::looks_like_path(text) {
+            file::read(Path::new(file))?;
+        }
         return Err(LightError::Unknown(text.to_owned()));
     }
     Ok(lamp_from_bytes(file, &bytes_of(file)?, spectrum)?)

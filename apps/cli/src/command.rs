@@ -48,7 +48,6 @@ pub(crate) enum Task {
 
 /// Print the completions of a shell
 #[derive(Debug, Args)]
-#[command(hide = true)]
 pub(crate) struct Completions {
     /// Shell to write the completions for
     shell: Shell,
@@ -56,7 +55,6 @@ pub(crate) struct Completions {
 
 /// Write a manual page of every verb
 #[derive(Debug, Args)]
-#[command(hide = true)]
 pub(crate) struct Man {
     /// The folder, such as man/man1; created if missing
     folder: PathBuf,
@@ -91,12 +89,12 @@ const GROUPS: [(&str, &[&str]); 5] = [
     ("Mix and match", &["mix", "match", "correct", "library", "quadrature"]),
     ("Map a scan", &["map", "simulate-scan"]),
     ("Paint", &["paint", "relight", "watercolor", "artmap", "painterly", "stencil"]),
-    ("The program", &["demo", "gpu", "help"]),
+    ("The program", &["demo", "gpu", "completions", "man", "help"]),
 ];
 
 /// The whole command line, with verbs in groups and examples.
 pub(crate) fn command() -> Command {
-    let plain = with_examples(Arguments::command());
+    let plain = short_help(with_examples(Arguments::command()));
     let verbs = grouped(&plain);
     let mut more =
         "`impasto VERB --help` explains a verb; docs/guide/index.md lists the guides.".to_owned();
@@ -106,6 +104,47 @@ pub(crate) fn command() -> Command {
     plain.help_template(format!(
         "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{verbs}Options:\n{{options}}\n\n{more}\n"
     ))
+}
+
+/// A verb that this program was compiled without, if `words`, the command line behind the name of the program, begin
+/// with one.
+pub(crate) fn left_out_verb(words: &[String]) -> Option<&'static str> {
+    let first = words.iter().find(|word| !word.starts_with('-'))?;
+    let all = GROUPS.iter().flat_map(|(_, names)| names.iter().copied());
+    let whole = command();
+    all.filter(|name| *name != "help" && whole.find_subcommand(name).is_none())
+        .find(|name| name == first)
+}
+
+/// `-h` shows at most this many letters of an option's help, on one line of 80 columns.
+const SHORT: usize = 70;
+/// A shortened help has at least this many letters.
+const SHORTEST: usize = 20;
+
+/// The command and all verbs below it, with a short help of each option for `-h`. `--help` shows all.
+fn short_help(command: Command) -> Command {
+    let names: Vec<String> =
+        command.get_subcommands().map(|verb| verb.get_name().to_owned()).collect();
+    let command =
+        names.into_iter().fold(command, |command, name| command.mut_subcommand(name, short_help));
+    command.mut_args(|option| {
+        let Some(whole) = option.get_help().map(ToString::to_string) else { return option };
+        match shortened(&whole) {
+            Some(short) if option.get_long_help().is_none() => option.help(short).long_help(whole),
+            Some(short) => option.help(short),
+            None => option,
+        }
+    })
+}
+
+/// The beginning of a help that is too long for a line, up to the end of a clause. `None` for a short one.
+fn shortened(help: &str) -> Option<String> {
+    if help.chars().count() <= SHORT {
+        return None;
+    }
+    let ends = [". ", ": ", "; ", " [default: "].iter();
+    let end = ends.filter_map(|end| help.match_indices(end).find(|(at, _)| *at >= SHORTEST));
+    end.map(|(at, _)| help[..at].to_owned()).min_by_key(String::len)
 }
 
 /// The verbs in their groups, each with the first line of its help.
@@ -145,6 +184,38 @@ mod tests {
     #[test]
     fn the_command_line_is_sound() {
         command().debug_assert();
+    }
+
+    #[test]
+    fn long_helps_end_with_a_clause_in_the_short_help() {
+        for (help, expected) in [
+            ("Readings are fractions, white near 1", None),
+            (
+                "Recipes for measurement files that hold none (CSV): a column `sample`, then one each",
+                Some("Recipes for measurement files that hold none (CSV)"),
+            ),
+            (
+                "Light: a CIE illuminant (D65, A, FL11, LED-B3 ..), or a lamp's file [default: D65]",
+                Some("Light: a CIE illuminant (D65, A, FL11, LED-B3 ..), or a lamp's file"),
+            ),
+        ] {
+            assert_eq!(shortened(help).as_deref(), expected, "{help}");
+        }
+    }
+
+    #[test]
+    fn the_short_help_of_a_fit_is_about_a_screen_and_a_half_and_ends_with_the_files() {
+        let whole = command().max_term_width(80).term_width(80);
+        let mut fit = whole.find_subcommand("fit").unwrap().clone().term_width(80);
+        let help = fit.render_help().to_string();
+        assert!(help.lines().count() <= 75, "{}\n{help}", help.lines().count());
+        let at = |text: &str| help.find(text).unwrap_or_else(|| panic!("{text}: {help}"));
+        assert!(at("--white <PIGMENT>") < at("Files of instruments:"));
+        for option in ["--percent", "--format", "--white-reading", "--tile"] {
+            assert!(at(option) > at("Files of instruments:"), "{option}");
+        }
+        let long = fit.render_long_help().to_string();
+        assert!(long.contains("--least-light") && long.contains("a column `sample`"), "{long}");
     }
 
     #[test]

@@ -28,9 +28,10 @@ use std::ffi::OsString;
 use std::io::Write;
 use std::time::Instant;
 
-use clap::{FromArgMatches, error::ErrorKind};
+use clap::FromArgMatches;
+use clap::error::{ContextKind, ErrorKind};
 
-use command::{Arguments, Task};
+use command::{Arguments, Task, left_out_verb};
 use console::Console;
 pub use console::Screen;
 
@@ -43,20 +44,30 @@ pub fn run(
     screen: Screen,
 ) -> u8 {
     let arguments: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
-    let words = arguments.iter().skip(1).map(|word| word.to_string_lossy());
-    let words: Vec<_> = std::iter::once("impasto".into()).chain(words).collect();
-    let command = console::command_line(words.iter().map(AsRef::as_ref));
+    let typed = arguments.iter().skip(1).map(|word| word.to_string_lossy().into_owned());
+    let typed: Vec<String> = typed.collect();
+    let words = std::iter::once("impasto").chain(typed.iter().map(String::as_str));
+    let command = console::command_line(words);
     let parsed = command::command()
         .try_get_matches_from(arguments)
         .and_then(|matches| Arguments::from_arg_matches(&matches));
     let parsed = match parsed {
         Ok(parsed) => parsed,
-        Err(error) => {
+        Err(mut error) => {
+            // Whoever misspells an option does not want it as a value.
+            error.remove(ContextKind::Suggested);
+            let left_out = match error.kind() {
+                ErrorKind::InvalidSubcommand => left_out_verb(&typed),
+                _ => None,
+            };
+            if left_out.is_some() {
+                error.remove(ContextKind::SuggestedSubcommand);
+            }
             // Requested help is a result, help after an error is not.
             let text = error.render();
             let requested = !error.use_stderr();
             let _ = if requested { write!(out, "{text}") } else { write!(err, "{text}") };
-            if let (ErrorKind::InvalidSubcommand, Some(lacking)) = (error.kind(), verbs::LACKING) {
+            if let (Some(_), Some(lacking)) = (left_out, verbs::LACKING) {
                 let _ = writeln!(err, "\nhint: {lacking}");
             }
             return if requested { 0 } else { 2 };

@@ -51,7 +51,8 @@ fn listed_verbs(command: &Command) -> impl Iterator<Item = &Command> {
 fn page(command: &Command, name: &str) -> io::Result<Vec<u8>> {
     let mut page = Vec::new();
     // Sections of their own follow for both. The verb `help` has no page to refer to.
-    let plain = command.clone().after_help(Resettable::Reset).version(Resettable::Reset);
+    let plain = command.clone().after_help(Resettable::Reset).after_long_help(Resettable::Reset);
+    let plain = plain.version(Resettable::Reset);
     let plain = match plain.find_subcommand("help").is_some() {
         true => plain.mut_subcommand("help", |help| help.hide(true)),
         false => plain,
@@ -92,7 +93,7 @@ fn entry(page: &mut Roff, term: Inline, text: &str) {
 
 /// Examples of the help. Their lines stay whole so that you can copy them.
 fn examples(command: &Command, page: &mut Roff) {
-    let Some(help) = command.get_after_help().map(ToString::to_string) else { return };
+    let Some(help) = command.get_after_long_help().map(ToString::to_string) else { return };
     page.control("SH", ["EXAMPLES"]);
     page.control("nf", []);
     for line in help.lines().skip(1) {
@@ -102,7 +103,7 @@ fn examples(command: &Command, page: &mut Roff) {
 }
 
 /// Verbs, by their words, and commands that show them.
-const EXAMPLES: [(&str, &[&str]); 34] = [
+const EXAMPLES: [(&str, &[&str]); 36] = [
     (
         "fit",
         &[
@@ -259,23 +260,29 @@ const EXAMPLES: [(&str, &[&str]); 34] = [
         ],
     ),
     ("gpu", &["impasto gpu"]),
+    ("completions", &["impasto completions zsh"]),
+    ("man", &["impasto man man/man1"]),
 ];
+
+/// `-h` shows at most this many examples.
+const SHOWN: usize = 2;
 
 /// The command line with its examples.
 pub(crate) fn with_examples(whole: Command) -> Command {
     EXAMPLES.iter().fold(whole, |whole, (path, lines)| {
         let words: Vec<&str> = path.split(' ').collect();
-        let text = format!("Examples:\n  {}", lines.join("\n  "));
-        at(whole, &words, &text)
+        let [short, whole_text] = [SHOWN.min(lines.len()), lines.len()]
+            .map(|count| format!("Examples:\n  {}", lines[..count].join("\n  ")));
+        at(whole, &words, [&short, &whole_text])
     })
 }
 
-/// The command with `text` below the help of the verb that `words` name, if it has this verb.
-fn at(command: Command, words: &[&str], text: &str) -> Command {
+/// The command with texts below the short and the long help of the verb that `words` name, if it has this verb.
+fn at(command: Command, words: &[&str], [short, long]: [&str; 2]) -> Command {
     match words {
-        [] => command.after_help(text.to_owned()),
+        [] => command.after_help(short.to_owned()).after_long_help(long.to_owned()),
         [first, rest @ ..] if command.find_subcommand(first).is_some() => {
-            command.mut_subcommand(*first, |inner| at(inner, rest, text))
+            command.mut_subcommand(*first, |inner| at(inner, rest, [short, long]))
         }
         _ => command,
     }

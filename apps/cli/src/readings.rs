@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use calibrate::Readings;
 use calibrate::evaluate::Viewing;
 use calibrate::library::PigmentLibrary;
-use calibrate::matching::{ColorTarget, PriceList, ViewingCondition, parse_price};
+use calibrate::matching::{ColorTarget, PriceList, TargetBook, ViewingCondition, parse_price};
 use calibrate::measurement::{
     AveragedSpectra, AveragedSpectrum, Film, MeasurementTable, Scale, ScaleChoice,
 };
@@ -16,7 +16,7 @@ use calibrate::visible_band::check_visible_band;
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, Args};
 use documents::counted_as;
-use documents::file::is_there;
+use documents::file::{is_there, looks_like_path, read};
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
@@ -26,16 +26,22 @@ use spectra::instrument::split_file_and_name;
 use spectra::referencing::{DarkFiles, ReferenceFiles, TileSource};
 use spectra::{Grid, Observer, Reflectance, Spectrum, ViewingNames, light_from_text};
 
+/// Heading of the options for measurement files.
+const FILES: &str = "Files of instruments";
+
 /// Options for how measurement files are read.
 #[derive(Debug, Clone, Default, Args)]
+#[command(next_help_heading = FILES)]
 pub(crate) struct ReadingOptions {
-    /// Readings are in percent [default: guessed from all readings of a file]
+    /// Readings are in percent [default: guessed]
+    ///
+    /// Guessed from all readings of a file.
     #[arg(long, conflicts_with = "fraction")]
     percent: bool,
     /// Readings are fractions, white near 1
     #[arg(long)]
     fraction: bool,
-    /// Format of the measurement files [default: found by content]
+    /// Format of the files [default: by content]
     ///
     /// csv: a column `sample` (or Name, Sample ID ..), then optionally film, backing, thickness_mm, one
     /// per pigment, then the wavelengths; commas, semicolons or tabs, or a sheet of .xlsx. cgats:
@@ -47,9 +53,9 @@ pub(crate) struct ReadingOptions {
     /// names the sheet.
     #[arg(long, value_name = "NAME", value_parser = format_names(), hide_possible_values = true)]
     format: Option<String>,
-    /// Read values that an instrument's file calls transmittance as reflectance
+    /// Read transmittance as reflectance
     ///
-    /// For spectrometers whose program measured in transmission mode over a white tile. Counts and
+    /// Takes values that an instrument's file calls transmittance. For spectrometers whose program measured in transmission mode over a white tile. Counts and
     /// the power of lamps are never read as reflectance.
     #[arg(long)]
     as_reflectance: bool,
@@ -183,31 +189,36 @@ pub(crate) fn library(path: &Path) -> Result<PigmentLibrary> {
 
 /// References that convert counts to reflectance.
 #[derive(Debug, Clone, Default, Args)]
+#[command(next_help_heading = FILES)]
 pub(crate) struct ReferencingOptions {
-    /// White reading, FILE or FILE#NAME, for measurement files that hold counts
+    /// White reading for counts, FILE or FILE#NAME
+    ///
+    /// For measurement files that hold the counts of a detector.
     ///
     /// Reflectance = tile x (sample - dark) / (white - dark), sample and white each divided by their
     /// integration time where the files state it. Saturated counts or too little light from 380 to
     /// 730 nm are an error; outside this range such wavelengths are left out.
     #[arg(long, value_name = "FILE")]
     white_reading: Option<String>,
-    /// Dark reading of sample and white, FILE or FILE#NAME; 0 if subtracted already
+    /// Dark reading, FILE or FILE#NAME, or 0
     ///
-    /// Dark counts are not scaled by time: if sample and white have different integration times,
+    /// Dark reading of sample and white, 0 if it is subtracted already. Dark counts are not scaled by time: if sample and white have different integration times,
     /// give a dark reading for each.
     #[arg(long, alias = "dark", value_name = "FILE")]
     dark_reading: Vec<String>,
-    /// Reflectance of the white itself: FILE, FILE#NAME or a fraction [default: 1]
+    /// Reflectance of the white [default: 1]
+    ///
+    /// FILE, FILE#NAME or a fraction.
     #[arg(long, value_name = "FILE|0.99")]
     tile: Option<String>,
-    /// Largest count of the detector, such as 65535 [default: guessed]
+    /// Largest count, such as 65535 [default: guessed]
     ///
-    /// Guessed from a maximum of 4095, 16383 or 65535, or from neighbouring values that share the
+    /// Largest count of the detector. Guessed from a maximum of 4095, 16383 or 65535, or from neighbouring values that share the
     /// maximum.
-    #[arg(long, value_name = "COUNT")]
+    #[arg(long, value_name = "COUNT", hide_short_help = true)]
     full_scale: Option<f64>,
     /// Least signal of the white at every wavelength, as a fraction of its peak [default: 0.01]
-    #[arg(long, value_name = "SHARE")]
+    #[arg(long, value_name = "SHARE", hide_short_help = true)]
     least_light: Option<f64>,
 }
 
@@ -283,22 +294,55 @@ pub(crate) fn select_spectra(
     Ok(Some(SelectedSpectra { file: file.to_owned(), averaged }))
 }
 
-/// Parses a target: one colour as `#rrggbb` or `L,a,b`, or the spectra of `FILE` or `FILE#SAMPLE`.
+/// Options for target colours.
+#[derive(Debug, Clone, Default, Args)]
+pub(crate) struct TargetOptions {
+    /// Light of a table of target colours (L, a, b or X, Y, Z), LIGHT or LIGHT/OBSERVER, such as D50/2
+    /// [default: the one that its headings name, else D65/2]
+    #[arg(long, value_name = "LIGHT")]
+    target_light: Option<String>,
+}
+
+/// Reads the light and, if it is named, the observer of `LIGHT` or `LIGHT/OBSERVER`.
+fn light_and_observer(text: &str) -> Result<Viewing> {
+    let pair = text.rsplit_once('/').and_then(|(light, observer)| {
+        let observer = Observer::named(observer).ok()?;
+        Some((light, observer))
+    });
+    let (light, observer) = pair.unwrap_or((text, Observer::default()));
+    Ok(Viewing { illuminant: light_from_text(light)?, observer })
+}
+
+/// Parses a target: one colour as `#rrggbb` or `L,a,b`, or the named colours or spectra of `FILE` or
+/// `FILE#NAME`.
 pub(crate) fn targets(
     text: &str,
+    options: &TargetOptions,
     reading: &ReadingOptions,
     console: &mut Console<'_>,
 ) -> Result<Vec<ColorTarget>> {
+    let (file, name) = split_file_and_name(text);
+    let path = Path::new(file);
+    let light = options.target_light.as_deref().map(light_and_observer).transpose()?;
+    if is_there(path) {
+        if let Some(book) = TargetBook::read(file, &read(path)?, name, light.as_ref())? {
+            console.remarks(&book.remarks)?;
+            return Ok(book.targets);
+        }
+    }
     if let Some(selected) = select_spectra(text, reading, console)? {
         return measured(selected, console);
     }
-    let target = text.parse().map_err(|_| {
-        Failure::usage(
-            format!("a target takes #rrggbb, L,a,b or an existing file of spectra, found `{text}`"),
-            "try \"#4a7d8c\", 52,-10.5,8 or swatches.csv#NAME",
-        )
-    })?;
-    Ok(vec![target])
+    if let Ok(target) = text.parse() {
+        return Ok(vec![target]);
+    }
+    if looks_like_path(text) {
+        read(path)?;
+    }
+    Err(Failure::usage(
+        format!("a target takes #rrggbb, L,a,b or a file of colours or spectra, found `{text}`"),
+        "try \"#4a7d8c\", 52,-10.5,8, swatches.csv#NAME or book.ase",
+    ))
 }
 
 /// Makes targets of the spectra of paint in `selected`. Spectra of bare cards are skipped unless
@@ -330,17 +374,33 @@ fn measured(selected: SelectedSpectra, console: &mut Console<'_>) -> Result<Vec<
 pub(crate) fn prices(texts: &[String]) -> Result<PriceList> {
     let mut prices = PriceList::default();
     for text in texts {
-        if is_there(Path::new(text)) {
+        if is_there(Path::new(text)) || !text.contains('=') && looks_like_path(text) {
             prices.add_file(text)?;
             continue;
         }
         let (name, price) = text.rsplit_once('=').ok_or_else(|| {
             Failure::usage(
-                format!("--cost takes NAME=PRICE or an existing CSV file, found `{text}`"),
+                format!("--cost takes NAME=PRICE or a CSV file, found `{text}`"),
                 "try --cost \"Cobalt Blue=0.9\" or --cost prices.csv",
             )
         })?;
         prices.set(name, parse_price(price, text)?)?;
     }
     Ok(prices)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_light_may_name_its_observer() {
+        let names = |text: &str| {
+            let viewing = light_and_observer(text).unwrap();
+            (viewing.illuminant.name().to_owned(), viewing.observer.name())
+        };
+        assert_eq!(names("D50"), ("D50".to_owned(), "1931-2"));
+        assert_eq!(names("D65/10"), ("D65".to_owned(), "1964-10"));
+        assert!(light_and_observer("D64/2x").is_err());
+    }
 }

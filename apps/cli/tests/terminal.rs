@@ -107,3 +107,13 @@ fn a_spinner_is_drawn_in_a_terminal_and_cleared_again() {
     let label = mixing.contains("wavelengths (") || mixing.contains(" comparing mixtures (");
     assert!(label, "{mixing}");
 }
+
+#[test]
+fn a_dumb_terminal_gets_no_escapes() {
+    let library =
+        concat!(env!("CARGO_MANIFEST_DIR"), "/../../measurements/van-gogh-oils.pigments.json");
+    let mix = format!("impasto mix '{library}' Viridian=1");
+    assert!(seen(&mix).contains('\x1b'), "a patch of colour");
+    let plain = seen(&format!("export TERM=dumb; {mix}"));
+    assert!(plain.contains("100.00 % Viridian") && !plain.contains('\x1b'), "{plain}");
+}

@@ -62,6 +62,7 @@ pub(crate) fn hint_text(hint: &Hint) -> String {
             "least" => "least_share",
             "parts" => "whole_parts",
             "cost" | "costs" => "prices",
+            "target_light" => "light",
             other => other,
         };
         match value {

@@ -33,7 +33,7 @@ mod _native {
     #[pymodule_export]
     use crate::light::Light;
     #[pymodule_export]
-    use crate::matching::recipes_for;
+    use crate::matching::{BookColor, color_book, recipes_for};
     #[pymodule_export]
     use crate::planning::plan;
     #[pymodule_export]

@@ -1,11 +1,13 @@
 //! Recipes for target colours.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use calibrate::Viewing;
 use calibrate::library::PigmentLibrary;
-use calibrate::matching::{ColorTarget, MatchRequest, ViewingCondition};
+use calibrate::matching::{ColorTarget, MatchRequest, TargetBook, ViewingCondition};
 use documents::hint::Fault;
+use documents::file::read;
 use documents::request::request_from_json;
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
@@ -14,13 +16,47 @@ use spectra::Observer;
 use crate::arrays::{GridNumbers, reflectance};
 use crate::failure::{Exception, Raised, RemarkTuple, remarks};
 use crate::library::{Ground, Library};
-use crate::light::Light;
+use crate::light::{Light, viewing};
 use crate::running::run;
 
-/// A target: a code such as `#4a7d8c` or `52,-10.5,8`, or a name, a grid and a spectrum.
+/// A colour of a book.
+#[pyclass(frozen, module = "impasto._native")]
+pub(crate) struct BookColor(ColorTarget);
+
+#[pymethods]
+impl BookColor {
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.name
+    }
+}
+
+/// The named colours of a swatch file or of a table, with remarks. `None` for other files. If you pass a `name`, or a
+/// place counted from 1, you get this colour alone.
+#[pyfunction]
+pub(crate) fn color_book(
+    py: Python<'_>,
+    path: PathBuf,
+    name: Option<&str>,
+    light: Option<PyRef<'_, Light>>,
+    observer: &str,
+) -> PyResult<Option<(Vec<BookColor>, Vec<RemarkTuple>)>> {
+    let viewing = light.map(|light| viewing(py, &light, observer)).transpose()?;
+    let bytes = read(&path).raised(py, Exception::Reading)?;
+    let file = path.display().to_string();
+    let book = TargetBook::read(&file, &bytes, name, viewing.as_ref());
+    let book = book.raised(py, Exception::Reading)?;
+    Ok(book.map(|book| {
+        let told = remarks(&book.remarks);
+        (book.targets.into_iter().map(BookColor).collect(), told)
+    }))
+}
+
+/// A target: a code such as `#4a7d8c` or `52,-10.5,8`, a colour of a book, or a name, a grid and a spectrum.
 #[derive(FromPyObject)]
 pub(crate) enum Target<'py> {
     Code(String),
+    OfBook(PyRef<'py, BookColor>),
     Measured(String, GridNumbers, PyReadonlyArray1<'py, f64>),
 }
 
@@ -32,6 +68,7 @@ impl Target<'_> {
                 let hint = "try \"#4a7d8c\", (52, -10.5, 8) or readings[\"NAME\"]";
                 Exception::Recipe.with(py, Fault::Setting, &message, Some(hint))
             }),
+            Self::OfBook(color) => Ok(color.0.clone()),
             Self::Measured(name, grid, values) => {
                 Ok(ColorTarget::measured(name.clone(), reflectance(py, *grid, values)?))
             }

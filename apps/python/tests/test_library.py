@@ -78,6 +78,28 @@ def test_recipes_are_those_of_the_program(oils: im.Library) -> None:
     assert [m[0].distance < 0.1 for m in several] == [True] * 3
 
 
+def test_colours_of_a_book_are_targets(oils: im.Library, tmp_path: Path) -> None:
+    path = tmp_path / "book.csv"
+    path.write_text("Number;L*;a*;b*\nRAL 5012;55,1;-15,3;-31,9\nRAL 9010;94,6;-0,8;6,9\n")
+    book = im.ColorBook(path)
+    assert book.names == ("RAL 5012", "RAL 9010") and "D65" in book.remarks[0]
+    one = oils.match(book["ral 9010"], at_most=2, count=1)
+    assert isinstance(one, im.Match) and one.target == "RAL 9010"
+    assert np.allclose(list(one.about["lab"].values())[0], [94.6, -0.8, 6.9])
+    every = oils.match(book, at_most=1, count=1)
+    assert isinstance(every, list) and [match.target for match in every] == list(book.names)
+    assert im.ColorBook(path, light="D50").remarks == ()
+    with pytest.raises(im.ReadingError, match="no colour is called `RAL 1`"):
+        book["RAL 1"]
+    path.write_text("name,L,a,b\nSky,60,x,-30\n")
+    with pytest.raises(im.ReadingError, match="row 2, column `a`") as error:
+        im.ColorBook(path)
+    assert error.value.place == im.errors.Place(str(path), 2, "a")
+    path.write_text("pigment,price\nZinc White,3\n")
+    with pytest.raises(im.Error, match="not a book"):
+        im.ColorBook(path)
+
+
 def test_numbers_of_numpy_are_numbers(oils: im.Library) -> None:
     half: Any = np.float32(0.5)
     film = oils.mix({"Viridian": 1}, thickness=0.1, over=half)

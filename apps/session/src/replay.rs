@@ -49,10 +49,10 @@ impl Replay {
         Self { script, pace, next: 0, added: 0, start: now, skipped_saves: 0, progress_due: now }
     }
 
-    /// Index and key of the current action, e.g. `action 3 (stroke)`.
+    /// Number, from 1, and key of the current action, e.g. `action 3 (stroke)`.
     pub(super) fn current_action(&self) -> String {
         let kind = self.script.actions.get(self.next).map_or("end", Action::kind);
-        format!("action {} ({kind})", self.next)
+        format!("action {} ({kind})", self.next + 1)
     }
 
     /// How many actions were played, e.g. `3 of 12 actions`.

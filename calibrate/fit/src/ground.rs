@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use documents::file::is_there;
+use documents::file::{is_there, looks_like_path};
 use documents::hint::Explain;
 use documents::{name_list, request::RequestError};
 use pigment::{Backing, Remark};
@@ -38,8 +38,8 @@ pub fn backing_from_text(
         return Ok(backing);
     }
     let (file, name) = split_file_and_name(text);
-    if !is_there(Path::new(file)) {
-        let reason = format!("takes 0 to 1, white, black or an existing file, found `{text}`");
+    if !is_there(Path::new(file)) && !looks_like_path(text) {
+        let reason = format!("takes 0 to 1, white, black or a file, found `{text}`");
         let hint = "try [over=0.85] or [over=paper.csv#SAMPLE]";
         return Err(BackingTextError::Text(RequestError::value(reason, hint)));
     }

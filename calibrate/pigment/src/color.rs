@@ -153,7 +153,6 @@ impl PigmentLibrary {
 pub enum ColorError {
     /// The recipe cannot be mixed.
     #[error(transparent)]
-    #[fault(Input)]
     Recipe(#[from] RecipeError),
     /// The thickness of the film is impossible.
     #[error("a film's thickness is above 0 and up to 1e9, found `{0}`")]

@@ -30,6 +30,7 @@ pub mod evaluate;
 pub mod recipe;
 mod least_squares;
 pub mod smooth_reflectance;
+mod color_index;
 pub mod library;
 pub mod color;
 pub mod curation;

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use documents::file::{FileError, read, write_whole};
 use documents::hint::Explain;
-use documents::{counted, question};
+use documents::{counted, name_list, question};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -15,6 +15,9 @@ use sha2::{Digest, Sha256};
 use spectra::Grid;
 use spectra::optics::{Surface, UnevenFilm};
 
+use crate::color_index::{
+    has_hue, holds_words, plain_index_name, traditional_index_name, traditional_names,
+};
 use crate::recipe::{Curves, PigmentId, Recipe};
 
 /// We allow this range for a part. Sums with larger parts lose their small terms to rounding.
@@ -92,35 +95,60 @@ impl PigmentLibrary {
         }
     }
 
-    /// Finds a pigment by `name`, for example `zinc` for `Zinc White`. We try, in this order, the exact
-    /// name, the name in any letter case, and the start of a name in any letter case if only one pigment
-    /// has it.
+    /// Finds a pigment by `name`. We try, in this order, all in any letter case, and take the first that fits:
+    ///
+    /// 1. the name itself,
+    /// 2. the start of a name (`cobalt` for `Cobalt Blue`),
+    /// 3. a Colour Index name (`PB29`, `Pigment Blue 29`) that the library states, or that tradition gives a paint
+    ///    of this name,
+    /// 4. words, each the start of a word of a name (`umber`, `blue phthalo`), and the word of a hue (`blue`), which
+    ///    Colour Index names state too.
+    ///
+    /// ```
+    /// use pigment::PigmentLibrary;
+    ///
+    /// let oils = PigmentLibrary::van_gogh_oils();
+    /// assert_eq!(oils.find("PB29")?, oils.find("Ultramarine")?);
+    /// let blues = oils.find("blue").unwrap_err().to_string();
+    /// assert_eq!(blues, "`blue` may be Cobalt Blue, Ultramarine or Prussian Blue");
+    /// # Ok::<(), pigment::RecipeError>(())
+    /// ```
     ///
     /// # Errors
     /// [`RecipeError`] if no pigment or several match.
     pub fn find(&self, name: &str) -> Result<PigmentId, RecipeError> {
         let name = name.trim();
-        let lower = name.to_lowercase();
-        let lowered: Vec<String> = self.pigments.iter().map(|p| p.name.to_lowercase()).collect();
         if let Some(index) = self.pigments.iter().position(|p| p.name == name) {
             return Ok(PigmentId(index));
         }
-        if let Some(index) = lowered.iter().position(|n| *n == lower) {
-            return Ok(PigmentId(index));
+        let lower = name.to_lowercase();
+        let starts = |p: &Pigment| !lower.is_empty() && p.name.to_lowercase().starts_with(&lower);
+        let wanted = plain_index_name(name);
+        let is_indexed = |p: &Pigment| wanted.is_some() && p.color_index_or_tradition() == wanted;
+        let has_words = |p: &Pigment| {
+            let index = p.color_index_or_tradition();
+            holds_words(&p.name, name) || index.is_some_and(|index| has_hue(&index, &lower))
+        };
+        let is_named = |p: &Pigment| p.name.to_lowercase() == lower;
+        let ways: [&dyn Fn(&Pigment) -> bool; 4] = [&is_named, &starts, &is_indexed, &has_words];
+        for way in ways {
+            let found: Vec<PigmentId> = self.ids().filter(|id| way(&self[*id])).collect();
+            match found[..] {
+                [] => {}
+                [id, ..] if found.len() == 1 || lower == self[id].name.to_lowercase() => {
+                    return Ok(id);
+                }
+                _ => {
+                    let names = found.iter().map(|id| self[*id].name.clone()).collect();
+                    return Err(RecipeError::Ambiguous { name: name.to_owned(), names });
+                }
+            }
         }
-        let mut starting = (0..lowered.len()).filter(|&i| lowered[i].starts_with(&lower));
-        match (starting.next(), starting.next()) {
-            (Some(index), None) => Ok(PigmentId(index)),
-            (Some(first), Some(second)) => Err(RecipeError::Ambiguous {
-                name: name.to_owned(),
-                first: self.pigments[first].name.clone(),
-                second: self.pigments[second].name.clone(),
-            }),
-            _ => Err(RecipeError::UnknownPigment {
-                name: name.to_owned(),
-                known: self.pigments.iter().map(|p| p.name.clone()).collect(),
-            }),
-        }
+        Err(RecipeError::UnknownPigment {
+            name: name.to_owned(),
+            traditional: wanted.map_or(&[], |index| traditional_names(&index)),
+            known: self.pigments.iter().map(|p| p.name.clone()).collect(),
+        })
     }
 
     /// Indices of all pigments of the library, in order.
@@ -279,6 +307,16 @@ pub struct Pigment {
     /// Warnings about the pigment, in words for you.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
+}
+
+impl Pigment {
+    /// Colour Index name that the library states, or that tradition gives a paint of this name.
+    fn color_index_or_tradition(&self) -> Option<String> {
+        match &self.color_index {
+            Some(stated) => plain_index_name(stated),
+            None => traditional_index_name(&self.name),
+        }
+    }
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
@@ -687,27 +725,43 @@ pub enum LibraryError {
 pub enum RecipeError {
     /// No pigment has this name.
     #[error("the library has no pigment called `{name}`")]
+    #[hint(
+        if !traditional.is_empty(),
+        verbatim,
+        "{name} is {}; pigments: {}",
+        name_list(traditional, traditional.len(), " or "),
+        known.join(", ")
+    )]
     #[hint(verbatim, "{}pigments: {}", question(name, known), known.join(", "))]
     UnknownPigment {
         /// Name that was looked up.
         name: String,
+        /// Traditional names, if it is a Colour Index name.
+        traditional: &'static [&'static str],
         /// Names of all pigments of the library.
         known: Vec<String>,
     },
-    /// Several pigments start with this name.
-    #[error("{first} and {second} both start with `{name}`")]
+    /// Several pigments fit this name.
+    #[error("`{name}` may be {}", one_of(names))]
     #[hint("write more of the name")]
     Ambiguous {
         /// Name that was looked up.
         name: String,
-        /// Name of one pigment that matches.
-        first: String,
-        /// Name of another pigment that matches.
-        second: String,
+        /// Names of the pigments that fit, two or more.
+        names: Vec<String>,
     },
     /// A part, or the sum of all parts, is out of range.
     #[error("parts are 0 to 1e12 and sum to 1e-12 or more, found `{0}`")]
+    #[fault(Setting)]
     Parts(f64),
+}
+
+/// Names with commas and, before the last, `or`.
+fn one_of(names: &[String]) -> String {
+    match names {
+        [first @ .., last] if !first.is_empty() => format!("{} or {last}", first.join(", ")),
+        _ => names.join(", "),
+    }
 }
 
 #[cfg(test)]
@@ -749,10 +803,52 @@ mod tests {
         let known = ["Zinc White", "Viridian"].map(str::to_owned).to_vec();
         for (name, hint) in [
             ("Viridan", "did you mean Viridian? pigments: Zinc White, Viridian"),
+            ("zink", "did you mean Zinc White? pigments: Zinc White, Viridian"),
             ("Umber", "pigments: Zinc White, Viridian"),
         ] {
-            let error = RecipeError::UnknownPigment { name: name.to_owned(), known: known.clone() };
+            let name = name.to_owned();
+            let error =
+                RecipeError::UnknownPigment { name, traditional: &[], known: known.clone() };
             assert_eq!(error.hint().unwrap().to_string(), hint);
         }
+    }
+
+    #[test]
+    fn pigments_are_found_by_name_colour_index_and_words() {
+        let mut oils = PigmentLibrary::van_gogh_oils();
+        let eosin = oils.find("Eosin Lake").unwrap();
+        oils[eosin].color_index = Some("PR90:1".to_owned());
+        for (text, expected) in [
+            ("Zinc White", Ok("Zinc White")),
+            ("zinc white", Ok("Zinc White")),
+            ("cobalt", Ok("Cobalt Blue")),
+            ("PB29", Ok("Ultramarine")),
+            ("pb 29", Ok("Ultramarine")),
+            ("Pigment Black 9", Ok("Bone Black")),
+            ("PR90", Ok("Eosin Lake")),
+            ("sulphate", Ok("Barium Sulphate")),
+            ("blue prussian", Ok("Prussian Blue")),
+            ("poppyseed", Ok("Chrome Yellow (poppyseed)")),
+            ("black", Ok("Bone Black")),
+            ("blue", Err("`blue` may be Cobalt Blue, Ultramarine or Prussian Blue")),
+            ("green", Err("`green` may be Viridian or Emerald Green")),
+            ("PW4", Err("`PW4` may be Zinc White or Zinc White (linseed)")),
+            ("zinc", Err("`zinc` may be Zinc White or Zinc White (linseed)")),
+            ("PW6", Err("the library has no pigment called `PW6`")),
+            ("", Err("the library has no pigment called ``")),
+            ("Octarine", Err("the library has no pigment called `Octarine`")),
+        ] {
+            let found = oils.find(text).map(|id| oils[id].name.clone());
+            let found = found.map_err(|error| error.to_string());
+            match expected {
+                Ok(name) => assert_eq!(found.as_deref(), Ok(name), "{text}"),
+                Err(message) => assert_eq!(found.unwrap_err(), message, "{text}"),
+            }
+        }
+        let titanium = oils.find("PW6").unwrap_err().hint().unwrap().to_string();
+        assert!(
+            titanium.starts_with("PW6 is titanium white or titan white; pigments: "),
+            "{titanium}"
+        );
     }
 }

@@ -120,6 +120,24 @@ pub fn is_there(path: &Path) -> bool {
     is_standard_input(path) || super::disk::is_file(path)
 }
 
+/// Whether a text looks like the path of a file, `FILE` or `FILE#NAME`: it has a folder, an ending of letters or a
+/// name behind it. If there is no such file, say that it cannot be read.
+///
+/// ```
+/// use documents::file::looks_like_path;
+///
+/// assert!(looks_like_path("book.ase") && looks_like_path("scans/book") && looks_like_path("book#Sky"));
+/// assert!(!looks_like_path("teal") && !looks_like_path("52,-10.5,8") && !looks_like_path("#4a7d8c"));
+/// ```
+#[must_use]
+pub fn looks_like_path(text: &str) -> bool {
+    let (file, name) =
+        text.rsplit_once('#').map_or((text, None), |(file, name)| (file, Some(name)));
+    let ending = Path::new(file).extension().and_then(OsStr::to_str);
+    let has_ending = ending.is_some_and(|ending| ending.starts_with(char::is_alphabetic));
+    !file.is_empty() && (name.is_some() || has_ending || file.contains(['/', '\\']))
+}
+
 /// All bytes of standard input, read once.
 pub(super) fn standard_input() -> io::Result<Vec<u8>> {
     static BYTES: Mutex<Option<Vec<u8>>> = Mutex::new(None);

@@ -4,7 +4,7 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use documents::file::read;
+use documents::file::{FileError, read};
 use documents::hint::Explain;
 use image::{
     ColorType, DynamicImage, ExtendedColorType, ImageBuffer, ImageDecoder, ImageFormat,
@@ -47,10 +47,7 @@ impl Photograph {
     /// [`PhotographError`] with the path.
     pub fn open(path: &Path) -> Result<Self, PhotographError> {
         let name = path.display().to_string();
-        let bytes = read(path).map_err(|error| {
-            let error = std::io::Error::new(error.reason.kind(), error.reason.to_string());
-            PhotographError::Unreadable(name.clone(), error)
-        })?;
+        let bytes = read(path)?;
         Self::from_bytes(&name, &bytes)
     }
 
@@ -263,10 +260,8 @@ fn sample_bytes(color: ColorType) -> usize {
 #[derive(Debug, thiserror::Error, Explain)]
 pub enum PhotographError {
     /// The file cannot be opened or read.
-    #[error("{0}: {1}")]
-    #[hint("check the path")]
-    #[fault(Environment)]
-    Unreadable(String, std::io::Error),
+    #[error(transparent)]
+    Unreadable(#[from] FileError),
     /// The file is not a PNG, JPEG, TIFF or WebP picture, or it is damaged.
     #[error("{name}: not a {NAMES} picture that can be read: {reason}")]
     #[hint("save it as {NAMES}")]

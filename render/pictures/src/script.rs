@@ -381,7 +381,8 @@ impl ScriptJob {
         let loaded = loaded.map(|brush| brush.name.as_str()).collect();
         for (index, brush) in self.script.unloaded_brushes(&loaded) {
             listener(Note::Remark(Remark::note(format!(
-                "{name}, action {index}: the brush `{brush}` paints before it was loaded, so it only moves paint that lies there"
+                "{name}, action {}: the brush `{brush}` paints before it was loaded, so it only moves paint that lies there",
+                index + 1
             ))));
         }
         let replay = self.replay(session, task, listener);
@@ -455,9 +456,9 @@ fn replay_error(error: ReplayError<PictureError>) -> PictureError {
     match error {
         ReplayError::Script(error) => error.into(),
         ReplayError::Action { index, kind, error } => {
-            PictureError::from(*error).within(format!("action {index} ({kind})"))
+            PictureError::from(*error).within(format!("action {} ({kind})", index + 1))
         }
-        ReplayError::Save(index, error) => error.within(format!("action {index} (save)")),
+        ReplayError::Save(index, error) => error.within(format!("action {} (save)", index + 1)),
     }
 }
 
@@ -473,7 +474,7 @@ fn check_saves(
             && checked.insert(path)
         {
             check_save(&folder.join(path), inputs)
-                .map_err(|error| error.within(format!("action {index} (save)")))?;
+                .map_err(|error| error.within(format!("action {} (save)", index + 1)))?;
         }
     }
     Ok(())
@@ -630,7 +631,7 @@ mod tests {
         std::fs::write(folder.path().join("saved"), "a file").unwrap();
         let error = request.run(&Task::default()).unwrap_err();
         assert!(matches!(error, PictureError::Within(..)), "{error:?}");
-        assert!(error.source().unwrap().to_string().contains("action 3 (save)"), "{error:?}");
+        assert!(error.source().unwrap().to_string().contains("action 4 (save)"), "{error:?}");
         let names = std::fs::read_dir(folder.path()).unwrap();
         assert_eq!(names.count(), 2, "only the script and the file are there");
 

@@ -97,7 +97,7 @@ fn wrong_options_could_not_run() {
 
 #[test]
 fn parts_that_make_no_mixture_are_refused() {
-    for recipe in [["Zinc White=0"], ["Zinc White=-1"], ["Zinc White=NaN"]] {
+    for recipe in [["Zinc White=0"], ["Zinc White=-1"], ["Zinc White=NaN"], ["Zinc White=1e20"]] {
         let run = impasto(&["mix", &library(), recipe[0]]);
         assert_eq!(run.status, 2, "{recipe:?}: {}", run.err);
     }
@@ -136,6 +136,30 @@ fn a_lamp_with_a_fault_is_refused_with_its_place() {
     assert_eq!(run.status, 1, "{}", run.err);
     assert!(run.err.contains("lamp.csv: power") && run.err.contains("500 nm"), "{}", run.err);
     assert!(run.err.contains("`-2`") && run.err.contains("hint: "), "{}", run.err);
+}
+
+#[test]
+fn a_misspelt_option_is_not_taken_for_a_value() {
+    for arguments in [vec!["fit", "--dpi", "x.csv"], vec!["mix", "--thicknes", "1", "A=1"]] {
+        let run = impasto(&arguments);
+        assert_eq!(run.status, 2, "{}", run.err);
+        assert!(run.err.contains(arguments[1]) && !run.err.contains("'-- "), "{}", run.err);
+    }
+    let wrong_verb = impasto(&["library", "lst"]);
+    assert!(wrong_verb.err.contains("'list'") && !wrong_verb.err.contains("left out"));
+}
+
+#[test]
+fn all_verbs_are_in_the_help_and_the_short_help_is_short() {
+    let whole = impasto(&["--help"]).out;
+    for verb in ["completions", "man", "fit", "match"] {
+        assert!(whole.contains(&format!("\n  {verb} ")), "{verb}: {whole}");
+    }
+    let [short, long] = ["-h", "--help"].map(|help| impasto(&["fit", help]).out);
+    let at = |text: &str| short.find(text).unwrap_or_else(|| panic!("{text}: {short}"));
+    assert!(at("--white <PIGMENT>") < at("Files of instruments:"), "{short}");
+    assert!(at("Files of instruments:") < at("--format"), "{short}");
+    assert!(long.contains("--least-light") && !short.contains("--least-light"), "{long}");
 }
 
 #[test]
@@ -320,9 +344,19 @@ fn the_same_fault_has_the_same_status_in_every_verb() {
     );
     all(
         2,
-        &["missing."],
+        &["missing.", ": cannot be read"],
         &[
             &["fit", "missing.csv"],
+            &["fit", oils, "--recipes", "missing.csv"],
+            &["fit", oils, "--illuminant", "missing.spdx"],
+            &["light", "missing.csv#2"],
+            &["mix", library, "Viridian=1", "--thickness", "1", "--over", "missing.csv#A"],
+            &["match", library, "missing.ase"],
+            &["match", library, "missing.csv#RAL 5012"],
+            &["match", library, "50,0,0", "--cost", "missing.csv"],
+            &["match", library, "50,0,0", "--target-light", "missing.csv"],
+            &["correct", library, "50,0,0", "missing.csv", "--made", "Viridian=1"],
+            &["painterly", "missing.png", "-o", png],
             &["mix", "missing.json", "Viridian=1"],
             &["library", "list", "missing.json"],
             &["library", "merge", library, "missing.json", "-o", json],

@@ -500,3 +500,92 @@ fn the_table_says_what_is_matched_and_under_which_lights_it_is_told() {
     assert!(refused.status == 2 && refused.out.is_empty(), "{}", refused.out);
     assert!(refused.err.contains("only a colour") && refused.err.contains("--by color"));
 }
+
+/// Files of named colours, and one target of each: its text, and its name and CIELAB (D65) to one digit.
+#[test]
+fn swatch_files_and_tables_of_names_are_targets() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = |name: &str| folder.path().join(name).display().to_string();
+    let tables = [
+        ("semicolons.csv", "Number;L*;a*;b*\nRAL 5012;55,1;-15,3;-31,9\nRAL 9010;94,6;-0,8;6,9\n"),
+        ("stated.csv", "name,L* (D50/2),a* (D50/2),b* (D50/2)\nSky,60,-5,-30\n"),
+        ("xyz.csv", "name,X,Y,Z\nGrey,17.506,18.419,20.056\n"),
+        (
+            "codes.csv",
+            "RAL,HEX,English\nRAL 5012,#3b83bd,Light blue\nRAL 9010,#f7f9ef,Pure white\n",
+        ),
+        ("list.txt", "Sky,#3b83bd\nSea,#003b83\n"),
+    ];
+    for (name, text) in tables {
+        std::fs::write(place(name), text).unwrap();
+    }
+    for (name, space) in [("oils.ase", "lab"), ("oils.aco", "lab"), ("oils.gpl", "rgb")] {
+        let run = impasto(&["library", "export", &library(), "--space", space, "-o", &place(name)]);
+        assert_eq!(run.status, 0, "{}", run.err);
+    }
+    for (text, name, wanted) in [
+        ("semicolons.csv#RAL 5012", "RAL 5012", [55.1, -15.3, -31.9]),
+        ("semicolons.csv#2", "RAL 9010", [94.6, -0.8, 6.9]),
+        // Adapted from D50 to D65 by the Bradford matrix.
+        ("stated.csv#sky", "Sky", [60.405, -1.391, -29.483]),
+        ("xyz.csv", "Grey", [50.0, 0.0, 0.0]),
+        ("codes.csv#light blue", "RAL 5012", [52.78, -4.45, -36.14]),
+        ("list.txt#Sea", "Sea", [25.97, 14.79, -46.63]),
+        ("oils.ase#Viridian", "Viridian", [30.82, -11.15, -0.77]),
+        ("oils.aco#11", "Viridian", [30.82, -11.15, -0.77]),
+        ("oils.gpl#virid", "Viridian", [30.96, -11.48, -0.30]),
+    ] {
+        let found = matched(&[&place(text), "--at-most", "1", "--count", "1"]);
+        assert_eq!(found[0]["target"], name, "{text}");
+        for (value, wanted) in found[0]["lab"]["D65"].as_array().unwrap().iter().zip(wanted) {
+            assert!((value.as_f64().unwrap() - wanted).abs() < 0.06, "{text} {}", found[0]["lab"]);
+        }
+    }
+    let every = matched(&[&place("semicolons.csv"), "--at-most", "1", "--count", "1"]);
+    assert_eq!(every.as_array().unwrap().len(), 2, "a whole file is a batch");
+    let light = ["--target-light", "D50", "--illuminant", "D50", "--at-most", "1"];
+    let under = matched(&[&[place("semicolons.csv#1").as_str()][..], &light].concat());
+    let lab = under[0]["lab"]["D50"][0].as_f64().unwrap();
+    assert!((lab - 55.1).abs() < 1e-9, "{lab}");
+    let run = impasto(&["match", &library(), &place("semicolons.csv#1"), "--at-most", "1"]);
+    for told in ["states no light", "D65", "--target-light"] {
+        assert!(run.err.contains(told), "{}", run.err);
+    }
+    for (target, status, wanted) in [
+        ("semicolons.csv#RAL", 1, "`RAL` is the name of 2 colours"),
+        ("semicolons.csv#RAL 1", 1, "no colour is called `RAL 1`"),
+        ("semicolons.csv#9", 1, "RAL 5012, RAL 9010"),
+        ("missing.ase", 2, "missing.ase: cannot be read"),
+        ("missing.csv#RAL 5012", 2, "missing.csv: cannot be read"),
+    ] {
+        let (found, err) = refused(&[&place(target)]);
+        assert!(found == status && err.contains(wanted), "{target}: {found} {err}");
+    }
+    let (status, err) = refused(&["teal"]);
+    assert!(status == 2 && err.contains("found `teal`") && err.contains("book.ase"), "{err}");
+    let book = place("semicolons.csv");
+    let run = impasto(&["correct", &library(), &book, &book, "--made", "Zinc White=3"]);
+    assert_eq!(run.status, 2);
+    assert!(run.err.contains("holds 2") && run.err.contains("RAL 5012, RAL 9010"), "{}", run.err);
+}
+
+#[test]
+fn pigments_are_named_by_colour_index_and_by_words() {
+    let named = |only: &[&str]| {
+        let only: Vec<&str> = only.iter().flat_map(|name| ["--only", name]).collect();
+        matched(&[&["#5698e4", "--count", "1"], &only[..]].concat())
+    };
+    assert_eq!(named(&["PB29", "PW1"]), named(&["Ultramarine", "Lead White"]));
+    assert_eq!(named(&["Pigment Blue 27", "lead"]), named(&["Prussian Blue", "Lead White"]));
+    for (name, status, words) in [
+        ("blue", 1, "`blue` may be Cobalt Blue, Ultramarine or Prussian Blue"),
+        ("PW6", 1, "PW6 is titanium white"),
+        ("Viridan", 1, "did you mean Viridian?"),
+        ("sulphat", 1, "Barium Sulphate"),
+        ("ultramarin blue", 1, "the library has no pigment called `ultramarin blue`"),
+    ] {
+        let (found, err) = refused(&["#5698e4", "--only", name, "--only", "zink wite"]);
+        let is_first = err.contains(words) || name == "sulphat" && err.contains("`zink wite`");
+        assert!(found == status && is_first, "{name}: {found} {err}");
+    }
+}

@@ -264,5 +264,9 @@ fn a_brush_that_was_never_loaded_is_told() {
     std::fs::write(&script, text).unwrap();
     let picture = place(folder.path(), "a.png");
     let run = done(&["paint", &script, "--backend", "cpu", "-o", &picture]);
-    assert!(run.err.contains("action 0: the brush `b` paints before it was loaded"), "{}", run.err);
+    assert!(
+        run.err.contains("a.json, action 1: the brush `b` paints before it was loaded"),
+        "{}",
+        run.err
+    );
 }

@@ -3,6 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 mod exhaustive;
 mod films;
+mod reach;
 mod spectrum;
 
 use calibrate::evaluate::{Viewing, lab};

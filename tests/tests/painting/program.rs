@@ -427,24 +427,24 @@ fn what_is_wrong_is_told_with_its_place_and_nothing_is_written() {
         (STROKE, "[0, NaN, 9, 1]", vec!["script.json", "line"]),
         (STROKE, "[0, 9, Infinity, 1]", vec!["script.json", "line"]),
         (STROKE, "[0, 9, 1e999, 1]", vec!["script.json", "line"]),
-        (STROKE, "[0, 9, 1e300, 1]", vec!["action 5", "stroke", "sample 0", "y", "1e300"]),
-        (STROKE, "[0, 9, 9, 1.5]", vec!["action 5", "sample 0", "pressure", "`1.5`"]),
-        (STROKE, "[1, 9, 9, 1], [0, 9, 9, 1]", vec!["action 5", "sample 1", "seconds"]),
-        (STROKE, "", vec!["action 5", "samples"]),
+        (STROKE, "[0, 9, 1e300, 1]", vec!["action 6", "stroke", "sample 0", "y", "1e300"]),
+        (STROKE, "[0, 9, 9, 1.5]", vec!["action 6", "sample 0", "pressure", "`1.5`"]),
+        (STROKE, "[1, 9, 9, 1], [0, 9, 9, 1]", vec!["action 6", "sample 1", "seconds"]),
+        (STROKE, "", vec!["action 6", "samples"]),
         (STROKE, "[9, 9]", vec!["script.json", "line"]),
         (
             YELLOW,
             r#""recipe": {"Chrome Yelow": 1}"#,
-            vec!["action 3", "Chrome Yelow", "hint:", "Chrome Yellow"],
+            vec!["action 4", "Chrome Yelow", "hint:", "Chrome Yellow"],
         ),
-        (YELLOW, r#""recipe": {"Viridian": 1}"#, vec!["action 3", "Viridian", "hint:", "palette"]),
-        (YELLOW, r#""recipe": {}"#, vec!["action 3", "recipe"]),
+        (YELLOW, r#""recipe": {"Viridian": 1}"#, vec!["action 4", "Viridian", "hint:", "palette"]),
+        (YELLOW, r#""recipe": {}"#, vec!["action 4", "recipe"]),
         (
             r#"{"brush": "knife", "recipe""#,
             r#"{"brush": "knive", "recipe""#,
-            vec!["action 3", "brush", "knive", "hint:", "knife"],
+            vec!["action 4", "brush", "knive", "hint:", "knife"],
         ),
-        (UNDO, outside, vec!["action 6", "save", "path", "../x.exr"]),
+        (UNDO, outside, vec!["action 7", "save", "path", "../x.exr"]),
         (
             CANVAS,
             r#""width_mm": 1e6, "height_mm": 1e6, "cell_mm": 0.2"#,
@@ -454,26 +454,26 @@ fn what_is_wrong_is_told_with_its_place_and_nothing_is_written() {
         (
             UNDO,
             r#"{"merge": {"layer": 1}}"#,
-            vec!["script.json", "action 6 (merge)", "dry layer", "`1`"],
+            vec!["script.json", "action 7 (merge)", "dry layer", "`1`"],
         ),
-        (UNDO, r#"{"merge": {"layer": 7}}"#, vec!["action 6 (merge)", "dry layer", "`7`"]),
-        (UNDO, r#"{"opacity": {"layer": 3, "value": 1}}"#, vec!["action 6 (opacity)", "`3`"]),
-        (UNDO, r#"{"opacity": {"layer": "wet", "value": 1}}"#, vec!["action 6 (opacity)", "hint:"]),
-        (UNDO, r#"{"palette": ["Viridian"]}"#, vec!["action 6 (palette)", "still wet", "hint:"]),
+        (UNDO, r#"{"merge": {"layer": 7}}"#, vec!["action 7 (merge)", "dry layer", "`7`"]),
+        (UNDO, r#"{"opacity": {"layer": 3, "value": 1}}"#, vec!["action 7 (opacity)", "`3`"]),
+        (UNDO, r#"{"opacity": {"layer": "wet", "value": 1}}"#, vec!["action 7 (opacity)", "hint:"]),
+        (UNDO, r#"{"palette": ["Viridian"]}"#, vec!["action 7 (palette)", "still wet", "hint:"]),
         (
             UNDO,
             r#"{"swap": {"layer": 0, "from": "Viridian", "to": "Minium"}}"#,
-            vec!["action 6 (swap)", "Viridian"],
+            vec!["action 7 (swap)", "Viridian"],
         ),
         (
             UNDO,
             r#"{"light": {"illuminant": "D999", "observer": "1931-2", "azimuth_deg": 90, "elevation_deg": 30, "ambient": 0.5, "relief": 1}}"#,
-            vec!["action 6", "D999", "hint:"],
+            vec!["action 7", "D999", "hint:"],
         ),
         (
             UNDO,
             r#"{"load": {"brush": "flat", "recipe": {"W": 1}, "amount_mm": 99}}"#,
-            vec!["action 6 (load)", "`99`", "hint:"],
+            vec!["action 7 (load)", "`99`", "hint:"],
         ),
         (r#""version": 1"#, r#""version": 2"#, vec!["script.json", "version"]),
     ] {
@@ -530,7 +530,7 @@ fn a_recipe_of_a_pigment_that_left_the_palette_is_refused_when_it_is_needed() {
       {"load": {"brush": "flat", "recipe": {"Y": 1}, "amount_mm": 0.1}}"#;
     let run = paint_script(folder.path(), UNDO, to);
     assert_eq!(run.status, 1, "{}", run.err);
-    for wanted in ["action 10 (load)", "Chrome Yellow is not on the palette now", "hint:"] {
+    for wanted in ["action 11 (load)", "Chrome Yellow is not on the palette now", "hint:"] {
         assert!(run.err.contains(wanted), "{}", run.err);
     }
 }
@@ -550,7 +550,7 @@ fn nesting_and_counts_without_end_are_refused_quickly() {
     let many = "[0, -23000, 9, 1], [0, 23000, 9, 1], ".repeat(60);
     let run = paint_script(folder, STROKE, &format!("{many}[0, 9, 9, 1]"));
     assert_eq!(run.status, 1, "{}", run.err);
-    assert!(run.err.contains("action 5 (stroke)") && run.err.contains("sub-steps"), "{}", run.err);
+    assert!(run.err.contains("action 6 (stroke)") && run.err.contains("sub-steps"), "{}", run.err);
     assert!(run.err.contains("hint:"), "{}", run.err);
 }
 
@@ -562,7 +562,7 @@ fn what_a_script_saves_is_checked_before_it_paints() {
     let save = r#"{"save": {"path": "first.png"}}, {"save": {"path": "taken/a.exr"}}"#;
     let run = paint_script(folder, UNDO, save);
     assert_eq!(run.status, 2, "{}", run.err);
-    for wanted in ["script.json", "action 7 (save)", "taken"] {
+    for wanted in ["script.json", "action 8 (save)", "taken"] {
         assert!(run.err.contains(wanted), "{}", run.err);
     }
     assert!(!folder.join("first.png").exists(), "the first save was carried out");

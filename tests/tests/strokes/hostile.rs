@@ -15,7 +15,7 @@ fn error_after(from: &str, to: &str) -> String {
 #[test]
 fn numbers_out_of_range_are_told_with_action_sample_and_field() {
     let last = "[0.5, 60, 12, 0.6, 10, 0, 45]";
-    let sample = "action 1 (stroke), sample 1, ";
+    let sample = "action 2 (stroke), sample 1, ";
     let cases = [
         (last, "[0.5, 60, 12, 1.2]", "pressure: 0 to 1, found `1.2`"),
         (last, "[0.5, 60, 12, -0.1]", "pressure: 0 to 1, found `-0.1`"),
@@ -35,32 +35,32 @@ fn numbers_out_of_range_are_told_with_action_sample_and_field() {
         (
             "\"samples\": [[0, 10, 10, 0.2], [0.5, 60, 12, 0.6, 10, 0, 45]]",
             "\"samples\": []",
-            "action 1 (stroke), samples: at least one, found `0`",
+            "action 2 (stroke), samples: at least one, found `0`",
         ),
-        ("\"keep\": 0.2", "\"keep\": 2", "action 2 (wipe), keep: 0 to 1, found `2`"),
-        ("\"fraction\": 0.5", "\"fraction\": 0", "action 4 (dry), fraction: above 0, found `0`"),
-        ("\"W\": 3", "\"W\": -3", "action 0 (load), recipe, W: 0 to 1000000, found `-3`"),
-        ("\"vehicle\": 0.2", "\"vehicle\": 1.2", "action 0 (load), vehicle: 0 to 1, found `1.2`"),
+        ("\"keep\": 0.2", "\"keep\": 2", "action 3 (wipe), keep: 0 to 1, found `2`"),
+        ("\"fraction\": 0.5", "\"fraction\": 0", "action 5 (dry), fraction: above 0, found `0`"),
+        ("\"W\": 3", "\"W\": -3", "action 1 (load), recipe, W: 0 to 1000000, found `-3`"),
+        ("\"vehicle\": 0.2", "\"vehicle\": 1.2", "action 1 (load), vehicle: 0 to 1, found `1.2`"),
         (
             "\"amount_mm\": 0.3",
             "\"amount_mm\": 1e4",
-            "action 0 (load), amount_mm: 0 to 100, found `10000`",
+            "action 1 (load), amount_mm: 0 to 100, found `10000`",
         ),
         (
             "{\"W\": 3, \"B\": 1}",
             "{}",
-            "action 0 (load), recipe: parts that sum to more than 0, found `0`",
+            "action 1 (load), recipe: parts that sum to more than 0, found `0`",
         ),
         (
             "\"elevation_deg\": 30",
             "\"elevation_deg\": 0",
-            "action 9 (light), elevation_deg: above 0, found `0`",
+            "action 10 (light), elevation_deg: above 0, found `0`",
         ),
-        ("\"value\": 0.5", "\"value\": -1", "action 10 (opacity), value: 0 to 1000, found `-1`"),
+        ("\"value\": 0.5", "\"value\": -1", "action 11 (opacity), value: 0 to 1000, found `-1`"),
         (
             "{\"merge\": {\"layer\": 1}}",
             "{\"merge\": {\"layer\": 0}}",
-            "action 12 (merge), layer: 1 and up: a dry layer that has one below it, found `0`",
+            "action 13 (merge), layer: 1 and up: a dry layer that has one below it, found `0`",
         ),
         ("\"size_mm\": 12", "\"size_mm\": 0", "brushes.big.size_mm: 0.2 to 100, found `0`"),
         ("\"size_mm\": 12", "\"size_mm\": 1e3", "brushes.big.size_mm: 0.2 to 100, found `1000`"),
@@ -101,7 +101,7 @@ fn a_canvas_beyond_memory_is_told_with_a_way_out() {
 #[test]
 fn names_that_nobody_declared_are_told_with_the_nearest() {
     let error = refused("{\"wash\": {\"brush\": \"big\"}}", "{\"wash\": {\"brush\": \"bigg\"}}");
-    assert_eq!(error.to_string(), "a.json: action 3 (wash), brush: one of `brushes`, found `bigg`");
+    assert_eq!(error.to_string(), "a.json: action 4 (wash), brush: one of `brushes`, found `bigg`");
     assert_eq!(error.hint().unwrap().to_string(), "did you mean big?");
     let error = refused("\"shape\": \"flat\"", "\"shape\": \"flatt\"");
     assert!(
@@ -189,7 +189,7 @@ fn scripts_save_nowhere_but_below_their_folder() {
     {
         let error = refused("out/study.exr", path);
         let wanted = format!("found `{path}`");
-        assert!(error.to_string().starts_with("a.json: action 13 (save), path: "), "{error}");
+        assert!(error.to_string().starts_with("a.json: action 14 (save), path: "), "{error}");
         assert!(error.to_string().ends_with(&wanted), "{error}");
     }
 }
@@ -207,7 +207,7 @@ fn too_much_is_refused() {
     let Action::Stroke(stroke) = &mut script.actions[1] else { panic!("a stroke") };
     stroke.samples.push(stroke.samples[0]);
     let error = script.check().unwrap_err().to_string();
-    assert!(error.starts_with("action 1 (stroke), samples: at most 10000000 of all"), "{error}");
+    assert!(error.starts_with("action 2 (stroke), samples: at most 10000000 of all"), "{error}");
 }
 
 #[test]
@@ -228,7 +228,7 @@ fn a_script_with_nan_is_not_written() {
             let Action::Stroke(stroke) = &mut script.actions[1] else { panic!("a stroke") };
             *field(&mut stroke.samples[0]) = value;
             let error = script.to_json().unwrap_err().to_string();
-            assert!(error.starts_with("action 1 (stroke), sample 0, "), "{index}: {error}");
+            assert!(error.starts_with("action 2 (stroke), sample 0, "), "{index}: {error}");
         }
     }
 }

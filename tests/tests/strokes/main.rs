@@ -76,10 +76,10 @@ fn the_guide_shows_scripts_that_can_be_painted() {
 fn lights_and_observers_nobody_knows_are_refused_before_painting() {
     let error = refused("\"illuminant\": \"A\"", "\"illuminant\": \"D666\"");
     assert!(
-        error.to_string().contains("action 9 (light), illuminant: a CIE illuminant"),
+        error.to_string().contains("action 10 (light), illuminant: a CIE illuminant"),
         "{error}"
     );
     let error = refused("\"observer\": \"1931-2\"", "\"observer\": \"1932\"");
-    assert!(error.to_string().contains("action 9 (light), observer"), "{error}");
+    assert!(error.to_string().contains("action 10 (light), observer"), "{error}");
     assert!(error.hint().unwrap().to_string().contains("1931-2"), "{:?}", error.hint());
 }

@@ -259,22 +259,22 @@ fn unknown_pigments_are_told_with_the_nearest() {
     assert_eq!(error, "palette: a pigment of the library, found `Zink Wite`");
     assert_eq!(hint, "did you mean Zinc White?");
     let (error, hint) = resolved("\"B\": 1", "\"Octarine\": 1").unwrap_err();
-    assert_eq!(error, "action 0 (load), recipe: a pigment of the library, found `Octarine`");
+    assert_eq!(error, "action 1 (load), recipe: a pigment of the library, found `Octarine`");
     assert!(hint.starts_with("pigments: "), "{hint}");
     let (error, _) = resolved("\"from\": \"Viridian\"", "\"from\": \"Viridium\"").unwrap_err();
-    assert!(error.starts_with("action 11 (swap), from: "), "{error}");
+    assert!(error.starts_with("action 12 (swap), from: "), "{error}");
 }
 
 #[test]
 fn recipes_keep_to_the_palette_and_name_a_pigment_once() {
     let (error, hint) = resolved("\"B\": 1", "\"Viridian\": 1").unwrap_err();
-    assert_eq!(error, "action 0 (load), recipe: pigments of the palette, found `Viridian`");
+    assert_eq!(error, "action 1 (load), recipe: pigments of the palette, found `Viridian`");
     assert_eq!(hint, "the palette has Zinc White, Prussian Blue");
     let (error, _) = resolved("\"B\": 1", "\"Zinc White\": 1").unwrap_err();
     assert!(error.contains("recipe: each pigment once"), "{error}");
     let (error, _) =
         resolved("[\"Zinc White\", \"Viridian\"]", "[\"Viridian\", \"Viridian\"]").unwrap_err();
-    assert!(error.starts_with("action 6 (palette), palette: each pigment once"), "{error}");
+    assert!(error.starts_with("action 7 (palette), palette: each pigment once"), "{error}");
 }
 
 const SAVE: &str = "{\"save\": {\"path\": \"out/study.exr\"}}";
@@ -334,7 +334,7 @@ fn what_is_done_on_the_palette_is_read_and_written() {
 
 #[test]
 fn numbers_of_heaps_and_shine_are_told_with_their_place() {
-    let first = "action 14 (squeeze), ";
+    let first = "action 15 (squeeze), ";
     let cases = [
         ("\"volume_mm3\": 40", "\"volume_mm3\": -1", "volume_mm3: 0 to 1000000, found `-1`"),
         ("\"volume_mm3\": 40", "\"volume_mm3\": 0", "volume_mm3: above 0, found `0`"),
@@ -346,9 +346,9 @@ fn numbers_of_heaps_and_shine_are_told_with_their_place() {
         assert_eq!(error_and_hint(&changed(from, to)).0, format!("{first}{wanted}"));
     }
     let (error, _) = error_and_hint(&changed("\"strength\": 0.3", "\"strength\": 101"));
-    assert_eq!(error, "action 19 (gloss), wet.strength: 0 to 100, found `101`");
+    assert_eq!(error, "action 20 (gloss), wet.strength: 0 to 100, found `101`");
     let (error, _) = error_and_hint(&changed("\"exponent\": 70", "\"exponent\": -1"));
-    assert_eq!(error, "action 19 (gloss), wet.exponent: 0 to 1000000, found `-1`");
+    assert_eq!(error, "action 20 (gloss), wet.exponent: 0 to 1000000, found `-1`");
     let (error, _) =
         error_and_hint(&changed("{\"scrape\": {}}", "{\"scrape\": {\"on\": \"wall\"}}"));
     assert!(error.contains("unknown variant `wall`, expected `canvas` or `palette`"), "{error}");
@@ -362,7 +362,7 @@ fn there_is_a_palette_only_where_it_is_described() {
     );
     let (error, hint) = error_and_hint(&bare);
     let wanted =
-        "action 14 (squeeze), on: the canvas, as there is no palette to mix on, found `palette`";
+        "action 15 (squeeze), on: the canvas, as there is no palette to mix on, found `palette`";
     assert_eq!(error, wanted);
     assert!(hint.contains("`mixing`"), "{hint}");
     for (action, kind) in [
@@ -373,7 +373,7 @@ fn there_is_a_palette_only_where_it_is_described() {
         ("{\"scrape\": {\"on\": \"palette\"}}", "scrape"),
     ] {
         let (error, _) = error_and_hint(&SOUND.replace(SAVE, action));
-        assert!(error.starts_with(&format!("action 13 ({kind}), on: the canvas")), "{error}");
+        assert!(error.starts_with(&format!("action 14 ({kind}), on: the canvas")), "{error}");
     }
     let (error, hint) =
         error_and_hint(&changed("\"width_mm\": 64,", "\"width_mm\": 64, \"cell_mm\": 0.2,"));

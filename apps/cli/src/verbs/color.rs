@@ -163,7 +163,7 @@ fn refuse_sample(path: &Path) -> Result<()> {
     let is_sheet = split_file_and_sheet(&text).1.is_some();
     match split_file_and_name(&text) {
         (file, Some(name)) if !is_sheet && is_there(Path::new(file)) => {
-            let reason = format!("{text}: there is no such file");
+            let reason = format!("a file is read as a whole, found `{text}`");
             Err(Failure::usage(reason, format!("for one sample: {file} --sample \"{name}\"")))
         }
         _ => Ok(()),

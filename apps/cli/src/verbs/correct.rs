@@ -13,7 +13,7 @@ use crate::csv_rows;
 use crate::failure::{Failure, Result};
 use crate::library_choice::{ChosenLibrary, chosen, split};
 use crate::progress::waited;
-use crate::readings::{ReadingOptions, condition, srgb, targets};
+use crate::readings::{ReadingOptions, TargetOptions, condition, srgb, targets};
 use crate::request_options::{CommandLine, RequestOptions, without_value};
 
 /// Most names that an error lists.
@@ -31,7 +31,8 @@ const NAMES: usize = 8;
 )]
 pub(crate) struct Correct {
     /// The pigment library (JSON) [default: the one in IMPASTO_LIBRARY, else the Van Gogh oils that ship],
-    /// then the target (#rrggbb, L,a,b, or a measured standard, FILE or FILE#SAMPLE), then the spectrum
+    /// then the target (#rrggbb, L,a,b, a colour of a swatch file or a table, or a measured standard, FILE or
+    /// FILE#NAME), then the spectrum
     /// of the batch, FILE or FILE#SAMPLE
     #[arg(required = true, value_name = "[LIBRARY] TARGET BATCH")]
     words: Vec<String>,
@@ -50,6 +51,8 @@ pub(crate) struct Correct {
     /// Observer: 1931-2 (or 2), 1964-10 (or 10), 2015-2, 2015-10
     #[arg(long, value_name = "NAME", default_value = "1931-2")]
     observer: String,
+    #[command(flatten)]
+    target: TargetOptions,
     #[command(flatten)]
     reading: ReadingOptions,
     /// Print JSON: target, batch, differences, and a list of corrections
@@ -86,7 +89,8 @@ impl Correct {
                 "try impasto correct standard.csv batch.csv --made \"Zinc White=440\"",
             ));
         };
-        let target = one(target, "a target", targets(target, &self.reading, console)?)?;
+        let target =
+            one(target, "a target", targets(target, &self.target, &self.reading, console)?)?;
         let made = amounts("--made", &self.made)?;
         let grams = self.grams.unwrap_or_else(|| made.iter().map(|(_, grams)| grams).sum());
         let batch = Batch { made, grams, reflectance: self.batch_spectrum(pot, console)? };
@@ -112,10 +116,10 @@ impl Correct {
         pot: &str,
         console: &mut Console<'_>,
     ) -> Result<Spectrum<Reflectance>> {
-        let measured = one(pot, "a batch", targets(pot, &self.reading, console)?)?;
+        let measured = one(pot, "a batch", targets(pot, &self.target, &self.reading, console)?)?;
         match measured.color {
             TargetColor::Reflectance(reflectance) => Ok(reflectance),
-            TargetColor::Lab(_) => Err(Failure::usage(
+            _ => Err(Failure::usage(
                 format!("a batch is a measured spectrum, found the colour `{pot}`"),
                 "give the file of its reading: FILE or FILE#SAMPLE",
             )),
@@ -131,7 +135,7 @@ fn one(text: &str, what: &str, colors: Vec<ColorTarget>) -> Result<ColorTarget> 
         (Some(color), 1) => Ok(color),
         (_, count) => Err(Failure::usage(
             format!("{what} is one colour, and {text} holds {count}"),
-            format!("name one of them, FILE#SAMPLE: {}", name_list(&names, NAMES, ", ")),
+            format!("name one of them, FILE#NAME: {}", name_list(&names, NAMES, ", ")),
         )),
     }
 }

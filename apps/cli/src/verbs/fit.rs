@@ -18,6 +18,9 @@ use crate::progress::{Progress, Waiting};
 use crate::readings::{ReadingOptions, ViewingOptions, measurements};
 use crate::request_options::{CommandLine, RequestOptions, without_value_help};
 
+/// Heading of the options for the file that is written.
+const WRITTEN: &str = "The library that is written";
+
 /// Fit K and S of every pigment to measured mixtures, and write the library
 ///
 /// Prints the colour error of every sample: CIEDE2000 between its measured K/S in a film that hides
@@ -28,14 +31,15 @@ pub(crate) struct Fit {
     #[command(flatten)]
     options: CalibrationOptions,
     /// The library file to write (JSON); without it only errors are printed
-    #[arg(short, long, value_name = "LIBRARY")]
+    #[arg(short, long, value_name = "FILE", help_heading = WRITTEN)]
     output: Option<PathBuf>,
     #[command(flatten)]
     provenance: RequestOptions<Provenance>,
     /// Fit to all films of a single pigment, but only to half of the mixtures: the first, third, fifth ..
     /// (0), or the second, fourth .. (1). To see how far maps can be trusted, paint with the library
     /// of one half and map with the library of the other
-    #[arg(long, value_name = "0|1", value_parser = clap::value_parser!(u8).range(0..=1))]
+    #[arg(long, value_name = "0|1", value_parser = clap::value_parser!(u8).range(0..=1),
+          hide_short_help = true)]
     half: Option<u8>,
     #[command(flatten)]
     viewing: ViewingOptions,
@@ -96,6 +100,7 @@ impl CommandLine for FitRequest {
             }
             "surface" => option.long("saunderson").value_name("K1,K2"),
             "specular" => without_value_help(option),
+            "below_surface" => option.value_name("HOW"),
             "smoothness" => option.value_name("WEIGHT"),
             "unevenness" => option.value_name("DEVIATION"),
             "exclude" => option.value_name("SAMPLE"),
@@ -106,7 +111,7 @@ impl CommandLine for FitRequest {
 
 impl CommandLine for Provenance {
     fn adapted(_key: &str, option: Arg) -> Arg {
-        option
+        option.value_name("TEXT").help_heading(WRITTEN)
     }
 }
 

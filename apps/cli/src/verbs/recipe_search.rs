@@ -19,7 +19,7 @@ use crate::csv_rows::{self, TableColors, at_most};
 use crate::failure::{Failure, Result};
 use crate::library_choice::{ChosenLibrary, chosen, split};
 use crate::progress::Progress;
-use crate::readings::{ReadingOptions, condition, prices, srgb, targets};
+use crate::readings::{ReadingOptions, TargetOptions, condition, prices, srgb, targets};
 use crate::request_options::{CommandLine, RequestOptions, without_value};
 use crate::surface::ground;
 
@@ -27,8 +27,9 @@ use crate::surface::ground;
 ///
 /// Every set of up to --at-most pigments is tried, and its shares are found by least squares in
 /// CIEDE2000, or in the difference of reflectance with --by spectrum. A target is `#rrggbb`, a CIELAB
-/// colour `L,a,b` (under the first light), or a file of spectra: FILE for all of them but bare cards,
-/// FILE#SAMPLE for one. Recipes within --tolerance of the nearest one count as equally near: they are
+/// colour `L,a,b` (under the first light), or a file: FILE for all of it but bare cards, FILE#NAME for one.
+/// Files hold spectra or named colours: .ase, .aco, .gpl, or a table of names with L, a, b, with X, Y, Z or
+/// with codes. FILE#3 is the third colour. Recipes within --tolerance of the nearest one count as equally near: they are
 /// sorted by cost if costs are given, else by the number of pigments. The others follow by distance.
 #[derive(Debug, Args)]
 #[command(
@@ -49,6 +50,8 @@ pub(crate) struct Match {
     /// Observer: 1931-2 (or 2), 1964-10 (or 10), 2015-2, 2015-10
     #[arg(long, value_name = "NAME", default_value = "1931-2")]
     observer: String,
+    #[command(flatten)]
+    target: TargetOptions,
     #[command(flatten)]
     reading: ReadingOptions,
     /// Print JSON: a list of targets, each with its recipes
@@ -86,7 +89,7 @@ impl Match {
         if texts.is_empty() {
             return Err(Failure::usage(
                 "no target colour is given",
-                "add one, such as \"#4a7d8c\", 52,-10.5,8 or swatches.csv#NAME",
+                "add one, such as \"#4a7d8c\", 52,-10.5,8, swatches.csv#NAME or book.ase",
             ));
         }
         check_words(path.as_deref(), texts)?;
@@ -95,7 +98,7 @@ impl Match {
         console.remarks(&search.remarks)?;
         let mut all_targets = Vec::new();
         for text in texts {
-            all_targets.extend(targets(text, &self.reading, console)?);
+            all_targets.extend(targets(text, &self.target, &self.reading, console)?);
         }
         let report = RecipeReport { library: &library, search: &search, grams: options.grams };
         let progress = Progress::new(all_targets.len(), "matching", console.shows_progress());
@@ -231,6 +234,12 @@ impl RecipeReport<'_> {
         if matched.is_reached_below_least() {
             console.line(format!(
                 "reached only with shares below {least} %: with these the nearest is {nearest:.2} {unit} away"
+            ))?;
+        } else if let ([smaller], false) = (&matched.below_least[..], matched.is_reached()) {
+            console.line(format!(
+                "out of reach of these pigments: the nearest is {:.2} {unit} away, and with shares of \
+                 {least} % or more {nearest:.2}",
+                smaller.distance
             ))?;
         } else if !matched.is_reached() {
             console.line(format!(

@@ -6,6 +6,7 @@ pigments are parts, of which only the ratios count, unless a library holds absol
 
 from impasto import color
 from impasto._native import __version__
+from impasto.books import ColorBook
 from impasto.cube import Cube
 from impasto.errors import Error, FileError, FindingWarning, FitError, ReadingError, RecipeError
 from impasto.fitting import Fit, Surface, Validation, fit, validate
@@ -21,6 +22,7 @@ from impasto.residuals import Residuals
 from impasto.spectrum import Spectrum
 
 __all__ = [
+    "ColorBook",
     "Cube",
     "Error",
     "FileError",

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from impasto.spectrum import Floats
 
 __all__ = [
+    "BookColor",
     "Cube",
     "Fit",
     "Library",
@@ -19,6 +20,7 @@ __all__ = [
     "Survey",
     "Validation",
     "__version__",
+    "color_book",
     "delta_e",
     "fit",
     "plan",
@@ -161,6 +163,14 @@ def fit(
 def validate(
     readings: Readings, request: str, light: Light, observer: str, progress: _Progress
 ) -> Validation: ...
+@final
+class BookColor:
+    @property
+    def name(self) -> str: ...
+
+def color_book(
+    path: _Path, name: str | None, light: Light | None, observer: str
+) -> tuple[list[BookColor], _Remarks] | None: ...
 def recipes_for(
     library: Library,
     targets: list[Any],

@@ -18,6 +18,7 @@ from impasto.light import Light, light_of
 from impasto.spectrum import Floats, Spectrum, floats, frozen, spectrum
 
 if TYPE_CHECKING:
+    from impasto._native import BookColor
     from impasto.matching import Match
 
 
@@ -176,7 +177,7 @@ class Library:
     @overload
     def match(
         self,
-        target: str | tuple[float, float, float],
+        target: str | tuple[float, float, float] | BookColor,
         *,
         wavelengths: ArrayLike | None = ...,
         by: str = ...,
@@ -243,8 +244,8 @@ class Library:
         count: int = 5,
         progress: Any = None,
     ) -> Match | list[Match]:
-        """Recipes for a target colour: `"#4a7d8c"`, `(L, a, b)`, or a measured spectrum in any form that
-        `impasto.color` takes. Several spectra give a list.
+        """Recipes for a target colour: `"#4a7d8c"`, `(L, a, b)`, a colour of a `ColorBook`, or a measured spectrum
+        in any form that `impasto.color` takes. Several spectra, or a whole book, give a list.
 
         `by` is `color`, `cie1976`, `spectrum` or `weighted-spectrum`. `lights` judge each recipe, with
         weights. `using` names pigments that must take part, with a fixed share if one is given.

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 
 from impasto import _native
+from impasto.books import ColorBook
 from impasto.display import Html, swatch, table
 from impasto.errors import Error, warn, warnings_of
 from impasto.light import light_of
@@ -163,8 +164,10 @@ def _names(setting: str, names: Sequence[str]) -> list[str]:
 
 
 def _targets(target: Any, wavelengths: Any) -> tuple[list[Any], bool]:
-    if isinstance(target, str):
+    if isinstance(target, (str, _native.BookColor)):
         return [target], True
+    if isinstance(target, ColorBook):
+        return list(target), False
     if wavelengths is None and isinstance(target, (tuple, list, np.ndarray)):
         lab = floats(target, "target", (0, 1, 2))
         if lab.shape == (3,):

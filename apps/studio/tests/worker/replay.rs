@@ -164,7 +164,7 @@ fn a_refused_action_ends_the_replay() {
         pace: Pace::Fast,
     });
     let (text, _, failed) = window.message();
-    assert!(failed && text.contains("after 1 of 3 actions, at action 1 (opacity)"), "{text}");
+    assert!(failed && text.contains("after 1 of 3 actions, at action 2 (opacity)"), "{text}");
     window.wait("the end", |event| matches!(event, Event::Replayed).then_some(()));
     // If a script cannot be played, the painting stays as it was.
     let before = window.snapshot();

@@ -89,7 +89,8 @@ function show(found) {
     ? `${found.target}: recipes within ${found.tolerance.toFixed(2)} ${unit} are equally near; fewest pigments first.`
     : found.reached_below_least
       ? `${found.target}: reached only with shares below the least one, as in the last recipe; with it the nearest is ${found.nearest.toFixed(2)} ${unit} away.`
-      : `${found.target}: out of reach of these paints; the nearest recipe is ${found.nearest.toFixed(2)} ${unit} away.`;
+      : `${found.target}: out of reach of these paints; the nearest recipe is ${found.nearest.toFixed(2)} ${unit} away`
+        + (found.below_least.length ? `, and with smaller shares, as in the last recipe, ${found.below_least[0].distance.toFixed(2)}.` : ".");
   $("recipes-told").replaceChildren(element("p", {}, reached), ...remarkList(found.remarks));
   $("recipes-list").replaceChildren(...[...found.recipes, ...found.below_least].map((recipe, place) => card(found, recipe, place, unit)));
   const colors = ["var(--s)", "var(--k)", "var(--third)"];

@@ -1,10 +1,9 @@
-//! Target colours: typed, of swatch files, and measured spectra.
+//! Target colours: typed, of swatch files and tables of names, and measured spectra.
 
 use calibrate::ReadingOptions;
-use calibrate::matching::ColorTarget;
+use calibrate::matching::{ColorTarget, TargetBook, ViewingCondition};
 use calibrate::measurement::Film;
 use serde_json::{Value, json};
-use spectra::swatch_file::read_swatch_file;
 use spectra::{Reflectance, Spectrum, Viewing};
 use wasm_bindgen::prelude::*;
 
@@ -33,11 +32,11 @@ impl Targets {
         Ok(Self { targets: vec![target], hex: vec![displayed(code.lab())], remarks: json!([]) })
     }
 
-    /// The colours of a swatch file (.ase, .gpl, .aco), or the spectra of paint in a file of
-    /// readings.
+    /// The colours of a swatch file (.ase, .gpl, .aco) or of a table of names, or the spectra of paint in a
+    /// file of readings.
     pub fn of_file(file: &str, bytes: &[u8]) -> Result<Targets> {
-        match read_swatch_file(file, bytes).told()? {
-            Some(swatches) => Self::of_swatches(swatches),
+        match TargetBook::read(file, bytes, None, None).told()? {
+            Some(book) => Self::of_book(book),
             None => Self::of_readings(file, bytes),
         }
     }
@@ -51,29 +50,11 @@ impl Targets {
 }
 
 impl Targets {
-    fn of_swatches(file: spectra::swatch_file::SwatchFile) -> Result<Self> {
-        let mut targets = Vec::new();
-        let mut hex = Vec::new();
-        let mut inks = 0;
-        for swatch in file.swatches {
-            let Some(color) = swatch.color.srgb() else {
-                inks += 1;
-                continue;
-            };
-            let name = if swatch.name.is_empty() { color.to_hex() } else { swatch.name };
-            targets.push(ColorTarget { name, ..ColorTarget::srgb(color) });
-            hex.push(color.to_hex());
-        }
-        if targets.is_empty() {
-            return Err(setting("the swatch file holds no colour", "choose a file with colours"));
-        }
-        let told =
-            format!("left out {}, which define no colour", documents::counted(inks, "CMYK ink"));
-        let remarks = match inks {
-            0 => json!([]),
-            _ => json!([{ "warning": true, "text": told, "hint": null }]),
-        };
-        Ok(Self { targets, hex, remarks })
+    fn of_book(book: TargetBook) -> Result<Self> {
+        let lab = |target: &ColorTarget| Ok(target.under(&[ViewingCondition::default()]).told()?.lab[0]);
+        let hex = book.targets.iter().map(|target| Ok(displayed(lab(target)?)));
+        let hex = hex.collect::<Result<_>>()?;
+        Ok(Self { targets: book.targets, hex, remarks: remarks(&book.remarks) })
     }
 
     fn of_readings(file: &str, bytes: &[u8]) -> Result<Self> {

@@ -6,6 +6,7 @@
 //! best recipe of a set with one pigment fewer.
 
 mod target;
+mod target_book;
 mod limits;
 mod forward;
 mod search;
@@ -28,3 +29,4 @@ pub use request::{
 pub use target::{
     ColorTarget, Metric, SpectralTarget, SpectrumWeights, Target, TargetColor, ViewingCondition,
 };
+pub use target_book::TargetBook;

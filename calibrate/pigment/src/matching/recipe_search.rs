@@ -212,10 +212,19 @@ impl RecipeSearch<'_> {
         let (found, nearest) = recipes_and_nearest(self.library, &matches.target, &limits, task)?;
         let near_enough = wanted.max(nearest + USUAL_TOLERANCE);
         let nearer = matches.nearest() - USUAL_TOLERANCE;
-        let plainest = found
-            .into_iter()
-            .find(|recipe| recipe.distance <= near_enough && recipe.distance < nearer);
-        Ok(Vec::from_iter(plainest))
+        let is_wanted =
+            |recipe: &RecipeMatch| recipe.distance <= near_enough && recipe.distance < nearer;
+        if let Some(plainest) = found.into_iter().find(is_wanted) {
+            return Ok(vec![plainest]);
+        }
+        if nearest >= nearer {
+            return Ok(Vec::new());
+        }
+        // Many plainer recipes are within the tolerance of the nearest one, but not near enough.
+        let tolerance = near_enough - nearest;
+        let limits = RecipeLimits { tolerance, count: 1, ..limits };
+        let (found, _) = recipes_and_nearest(self.library, &matches.target, &limits, task)?;
+        Ok(found.into_iter().filter(is_wanted).collect())
     }
 
     /// Distance of the nearest recipe of any amounts, if limits of amounts keep it from being found.

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use spectra::color::{ColorCode, ColorCodeError, Lab, Rgb};
+use spectra::color::{Adaptation, ColorCode, ColorCodeError, Lab, Rgb, Xyz, adapt};
 use spectra::{Extrapolation, Grid, InterpolateError, Interpolation, Reflectance, Spectrum};
 
 use crate::evaluate::{Viewing, lab};
@@ -36,6 +36,14 @@ pub enum TargetColor {
     /// CIELAB, which you match under every light. We adapt an sRGB colour (Bradford) from the white of the
     /// display to the white of the light, which leaves its CIELAB unchanged.
     Lab(Lab),
+    /// CIELAB under a light of its own. We adapt it (Bradford) to the white of the first light of a search, and
+    /// then match the same CIELAB under every light.
+    LabUnder {
+        /// The colour relative to `white`.
+        lab: Lab,
+        /// XYZ of the white of its light (Y = 100).
+        white: Xyz,
+    },
     /// A measured reflectance. Its colour depends on the light.
     Reflectance(Spectrum<Reflectance>),
 }
@@ -60,6 +68,17 @@ impl ColorTarget {
     pub fn under(&self, conditions: &[ViewingCondition]) -> Result<Target, InterpolateError> {
         match &self.color {
             TargetColor::Lab(lab) => Ok(Target::from_lab(&self.name, *lab, conditions)),
+            TargetColor::LabUnder { lab, white } => {
+                let lab = match conditions.first() {
+                    Some(first) => {
+                        let to = first.viewing.weights(Grid::cie())?.white();
+                        let xyz = adapt(lab.to_xyz(*white), *white, to, Adaptation::Bradford);
+                        Lab::from_xyz(xyz, to)
+                    }
+                    None => *lab,
+                };
+                Ok(Target::from_lab(&self.name, lab, conditions))
+            }
             TargetColor::Reflectance(reflectance) => {
                 Target::from_reflectance(&self.name, reflectance, conditions)
             }

@@ -211,7 +211,7 @@ pub enum ReplayError<E: std::error::Error + 'static> {
     #[error(transparent)]
     Script(#[from] ScriptError),
     /// The session refuses an action.
-    #[error("action {index} ({kind})")]
+    #[error("action {} ({kind})", .index + 1)]
     #[hint(inner)]
     Action {
         /// Index of the action, from 0.
@@ -223,7 +223,7 @@ pub enum ReplayError<E: std::error::Error + 'static> {
         error: Box<PaintingError>,
     },
     /// A file cannot be saved.
-    #[error("action {0} (save)")]
+    #[error("action {} (save)", .0 + 1)]
     #[hint(inner = 1)]
     Save(usize, #[source] E),
 }

@@ -94,7 +94,7 @@ pub const MAX_FILE_BYTES: usize = 128 << 20;
 /// Location of a value in a script.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ValueLocation {
-    /// Index of the action from 0, and its key. `None` for a value of the header.
+    /// Index of the action from 0, and its key. Messages count from 1. `None` for a value of the header.
     pub action: Option<(usize, &'static str)>,
     /// Index of the sample in its stroke, from 0.
     pub sample: Option<usize>,
@@ -105,7 +105,7 @@ pub struct ValueLocation {
 impl fmt::Display for ValueLocation {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some((index, kind)) = self.action {
-            write!(formatter, "action {index} ({kind}), ")?;
+            write!(formatter, "action {} ({kind}), ", index + 1)?;
         }
         if let Some(index) = self.sample {
             write!(formatter, "sample {index}, ")?;
@@ -364,7 +364,7 @@ mod tests {
             (stroke_as(StrokeTool::Scrape { height_mm: -0.1 }), "height_mm"),
         ] {
             let error = script(vec![Action::Undo {}, action]).check().unwrap_err().to_string();
-            assert!(error.contains(wanted) && error.contains("action 1"), "{wanted}: {error}");
+            assert!(error.contains(wanted) && error.contains("action 2"), "{wanted}: {error}");
         }
         let sound = [polygon(vec![[0.0, 0.0]; MAX_MASK_POINTS]), stroke_as(StrokeTool::Paint)];
         script(sound.to_vec()).check().unwrap();

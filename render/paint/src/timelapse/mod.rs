@@ -517,7 +517,7 @@ pub enum TimelapseError {
     #[error(transparent)]
     Script(#[from] ScriptError),
     /// The session refuses an action.
-    #[error("action {index} ({kind})")]
+    #[error("action {} ({kind})", .index + 1)]
     #[hint(inner)]
     Action {
         /// Index of the action, from 0.

@@ -43,7 +43,7 @@ fn subjects_that_paint_cannot_lie_on_are_refused() {
         refused(&picture, &scene, status, words);
     }
     let gone = path(&folder, "gone.obj");
-    refused(&picture, &[&gone, "--pour", "0.5,0.5"], 2, &["gone.obj", "check the path"]);
+    refused(&picture, &[&gone, "--pour", "0.5,0.5"], 2, &["gone.obj", "cannot be read"]);
     let cow = ["shape:cow", "--pour", "0.5,0.5"];
     refused(&picture, &cow, 1, &["`cow`", "shape:", "still-life"]);
 }

@@ -327,12 +327,13 @@ fn print(compared: &Comparison, console: &mut Console<'_>) -> Result<()> {
     let named = compared.pigments.iter().filter(|p| p.there >= NAMED || p.told >= NAMED);
     let named: Vec<_> = named.collect();
     let width = named.iter().map(|pigment| pigment.name.chars().count()).max().unwrap_or(0).max(7);
-    console.line(format!("{:width$}  there  told  rightly told (% of the pixels)", "pigment"))?;
+    console
+        .line(format!("{:width$}  present  mapped  mapped rightly (% of the pixels)", "pigment"))?;
     for pigment in named {
         let [there, told, right] =
             [pigment.there, pigment.told, pigment.right].map(|part| 100.0 * part);
         let name = &pigment.name;
-        console.line(format!("{name:width$}  {there:5.1} {told:5.1} {right:5.1}"))?;
+        console.line(format!("{name:width$}  {there:7.1}  {told:6.1}  {right:14.1}"))?;
     }
     Ok(())
 }

@@ -48,10 +48,7 @@ impl Mesh {
             _ if is_standard_input(path) => None,
             _ => return Err(MeshError::UnknownFormat { name, extension }),
         };
-        let bytes = read(path).map_err(|error| {
-            let error = std::io::Error::new(error.reason.kind(), error.reason.to_string());
-            MeshError::Unreadable(name.clone(), error)
-        })?;
+        let bytes = read(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let Some(reader) = by_ending.or_else(|| by_content(&bytes)) else {
             return Err(MeshError::UnknownFormat { name, extension });

@@ -30,7 +30,7 @@ pub(super) fn read(name: &str, folder: &Path, bytes: &[u8]) -> Result<Mesh, Mesh
     let loaded = tobj::load_obj_buf(&mut text.as_bytes(), &options, |file| {
         let file = folder.join(file);
         let name = file.display().to_string();
-        let read = std::fs::read(&file).map_err(|error| MeshError::Unreadable(name.clone(), error));
+        let read = documents::file::read(&file).map_err(MeshError::from);
         let checked = read.and_then(|bytes| {
             let text = String::from_utf8_lossy(&bytes).into_owned();
             check_mtl(&text).map_err(|fault| at_line(&name, fault)).map(|()| text)

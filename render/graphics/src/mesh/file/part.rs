@@ -3,6 +3,7 @@
 
 use std::io::Cursor;
 
+use documents::file::FileError;
 use documents::hint::Explain;
 use image::{ImageReader, Limits};
 
@@ -78,10 +79,8 @@ impl Texture {
 #[derive(Debug, thiserror::Error, Explain)]
 pub enum MeshError {
     /// The file cannot be opened or read.
-    #[error("{0}: {1}")]
-    #[hint("check the path")]
-    #[fault(Environment)]
-    Unreadable(String, #[source] std::io::Error),
+    #[error(transparent)]
+    Unreadable(#[from] FileError),
     /// We do not support the format of this file extension.
     #[error("{name}: no file extension of a model: `{extension}`")]
     #[hint("models are read from .obj, .gltf, .glb and .ply files")]
