@@ -527,8 +527,8 @@ pub enum ColorBookError {
         /// Names of all colours.
         names: Vec<String>,
     },
-    /// Several colours have this name.
-    #[error("`{name}` is the name of {}", counted(places.len(), "colour"))]
+    /// Several colours fit this name.
+    #[error("`{name}` may be {}", counted(places.len(), "colour"))]
     #[hint(verbatim, "name one of them by its place: {}", name_list(places, LISTED, ", "))]
     Several {
         /// The name that you asked for.
@@ -629,7 +629,7 @@ mod tests {
             ("name,L,a,b\nSky,,,\n", "", "book.csv: the file holds no colour"),
             ("name,L,a,b\nSky,60,0,0\n", "Skye", "book.csv: no colour is called `Skye`"),
             ("name,L,a,b\nSky,60,0,0\n", "3", "book.csv: no colour is called `3`"),
-            ("name,L,a,b\nSky,60,0,0\nSky,70,0,0\n", "Sky", "`Sky` is the name of 2 colours"),
+            ("name,L,a,b\nSky,60,0,0\nSky,70,0,0\n", "Sky", "`Sky` may be 2 colours"),
         ] {
             let error = read_text(text).and_then(|book| book.unwrap().find(name).cloned());
             let error = error.unwrap_err();

@@ -51,9 +51,10 @@ impl Targets {
 
 impl Targets {
     fn of_book(book: TargetBook) -> Result<Self> {
-        let lab = |target: &ColorTarget| Ok(target.under(&[ViewingCondition::default()]).told()?.lab[0]);
-        let hex = book.targets.iter().map(|target| Ok(displayed(lab(target)?)));
-        let hex = hex.collect::<Result<_>>()?;
+        let mut hex = Vec::new();
+        for target in &book.targets {
+            hex.push(displayed(target.under(&[ViewingCondition::default()]).told()?.lab[0]));
+        }
         Ok(Self { targets: book.targets, hex, remarks: remarks(&book.remarks) })
     }
 
