@@ -38,6 +38,7 @@ mod grid;
 mod interpolate;
 mod spectrum;
 pub mod csv_table;
+pub mod headings;
 pub mod instrument;
 pub mod referencing;
 mod illuminant;
