@@ -76,23 +76,23 @@ impl Grid {
     }
 
     /// A regular grid for wavelengths that may be irregular. This is [`Grid::through`] them if
-    /// possible. Otherwise you get a grid inside their band with a step of 1, 2, 5, 10 or 20 nm:
-    /// the smallest one that is not finer (by more than 5 %) than their median step. `None` unless
-    /// the wavelengths rise strictly.
+    /// possible. Otherwise you get a grid inside their band with a step of 1, 2, 5, 10 or 20 nm: the
+    /// largest one that is not coarser (by more than 5 %) than their smallest step, and never below 1 nm.
+    /// `None` unless the wavelengths rise strictly.
     #[must_use]
     pub fn suited_to(nm: &[f64]) -> Option<Self> {
         if let Some(grid) = Self::through(nm) {
             return Some(grid);
         }
-        let mut steps: Vec<f64> = nm.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        steps.sort_by(f64::total_cmp);
-        let median = *steps.get(steps.len() / 2)?;
-        let step = [1.0, 2.0, 5.0, 10.0].into_iter().find(|s| 1.05 * s >= median).unwrap_or(20.0);
+        let steps = nm.windows(2).map(|pair| pair[1] - pair[0]);
+        let smallest = steps.reduce(f64::min).filter(|step| *step > 0.0)?;
+        let step =
+            [20.0, 10.0, 5.0, 2.0].into_iter().find(|s| *s <= 1.05 * smallest).unwrap_or(1.0);
         let last = nm[nm.len() - 1];
         let round = (nm[0] / step).ceil() * step;
         let start = if round <= last { round } else { nm[0] };
         let count = ((last - start) / step).floor().max(0.0) as usize + 1;
-        Self::from_nm(start, step, count).ok().filter(|_| steps[0] > 0.0)
+        Self::from_nm(start, step, count).ok()
     }
 
     /// The first wavelength in nm.
@@ -246,4 +246,27 @@ impl std::fmt::Display for Wavelength {
 pub struct WavelengthError {
     /// The number that was given, in nm.
     pub nm: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_grid_is_never_coarser_than_irregular_wavelengths() {
+        for (steps, wanted) in [
+            ([15.0, 16.0, 15.5], 10.0),
+            ([9.7, 10.3, 10.0], 10.0),
+            ([10.0, 10.0, 20.0], 10.0),
+            ([3.3, 3.4, 3.3], 2.0),
+            ([25.0, 30.0, 30.0], 20.0),
+            ([20.0, 5.0, 20.0], 5.0),
+            ([0.3, 0.4, 0.3], 1.0),
+        ] {
+            let mut nm = vec![400.0];
+            steps.iter().for_each(|step| nm.push(nm[nm.len() - 1] + step));
+            assert_eq!(Grid::suited_to(&nm).unwrap().step_nm(), wanted, "{steps:?}");
+        }
+        assert_eq!(Grid::suited_to(&[400.0, 400.0, 410.0]), None);
+    }
 }

@@ -39,6 +39,7 @@ mod grid;
 mod interpolate;
 mod spectrum;
 pub mod csv_table;
+pub mod headings;
 pub mod instrument;
 pub mod referencing;
 mod illuminant;

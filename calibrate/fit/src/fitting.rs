@@ -8,6 +8,7 @@ use pigment::library::{AmountKind, Evidence, Input, PigmentLibrary};
 use pigment::remark::Remark;
 use pigment::visible_band::{BandError, check_visible_band};
 use pigment::{PigmentId, evaluate::Viewing};
+use spectra::headings::{is_white, plain};
 use spectra::optics::{Specular, Surface, UnevenFilm};
 
 use crate::absolute::{CHOICE_FITS, calibrate_absolute, chosen_film, films};
@@ -262,14 +263,13 @@ fn without_excluded(set: SwatchSet, exclude: &[String]) -> Result<SwatchSet, Fit
     Ok(set.retaining(|swatch| !excluded.contains(&&swatch.sample)))
 }
 
-/// The white by name, else the pigment called white that occurs in most samples.
+/// The white by name or its unique beginning, else the pigment called white that occurs in most samples.
 fn reference(set: &SwatchSet, name: Option<&str>) -> Result<PigmentId, FittingError> {
     if let Some(name) = name {
         return index_of(&set.pigments, name, "pigment").map(PigmentId);
     }
-    let whites: Vec<usize> = (0..set.pigments.len())
-        .filter(|&index: &usize| set.pigments[index].to_lowercase().contains("white"))
-        .collect();
+    let whites: Vec<usize> =
+        (0..set.pigments.len()).filter(|&index: &usize| is_white(&set.pigments[index])).collect();
     // If several occur in equally many samples, we choose the first column.
     let commonest = whites
         .into_iter()
@@ -339,11 +339,28 @@ pub(crate) fn index_of(
     wanted: &str,
     what: &'static str,
 ) -> Result<usize, FittingError> {
-    let lower = wanted.to_lowercase();
+    let lower = wanted.trim().to_lowercase();
     let exact = names.iter().position(|name| name == wanted);
-    exact.or_else(|| names.iter().position(|name| name.to_lowercase() == lower)).ok_or_else(|| {
-        FittingError::UnknownName { what, name: wanted.to_owned(), known: names.to_vec() }
-    })
+    let exact = exact.or_else(|| names.iter().position(|name| name.to_lowercase() == lower));
+    // `Titanweiss` is `Titanwei\u{df}`.
+    let exact = exact.or_else(|| names.iter().position(|name| plain(name) == plain(&lower)));
+    if let Some(index) = exact {
+        return Ok(index);
+    }
+    let may_abbreviate = what == "pigment" && !lower.is_empty();
+    let mut starting = (0..names.len())
+        .filter(|index| may_abbreviate && names[*index].to_lowercase().starts_with(&lower));
+    match (starting.next(), starting.next()) {
+        (Some(index), None) => Ok(index),
+        (Some(first), Some(second)) => Err(FittingError::Ambiguous {
+            name: wanted.to_owned(),
+            first: names[first].clone(),
+            second: names[second].clone(),
+        }),
+        _ => {
+            Err(FittingError::UnknownName { what, name: wanted.to_owned(), known: names.to_vec() })
+        }
+    }
 }
 
 /// A file's name without folder and ending.
@@ -434,6 +451,17 @@ pub enum FittingError {
         /// Names that exist.
         known: Vec<String>,
     },
+    /// Several pigments begin with the name.
+    #[error("`{name}` is the beginning of `{first}` and of `{second}`")]
+    #[hint("write more of the name")]
+    Ambiguous {
+        /// Name that was looked up.
+        name: String,
+        /// First pigment that begins with it.
+        first: String,
+        /// Second pigment that begins with it.
+        second: String,
+    },
     /// No pigment can be guessed as the reference.
     #[error("no pigment is called white, so none can be the reference whose S is 1")]
     #[hint("name it: [reference=\"{0}\"]")]
@@ -488,6 +516,18 @@ fn nothing_to_leave_out(needed: &[String]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_pigment_is_found_by_its_unique_beginning_and_without_accents() {
+        let names = ["Titanwei\u{df}", "Titan Buff", "Zinkwei\u{df}"].map(str::to_owned);
+        let found = |name: &str, what| index_of(&names, name, what);
+        assert_eq!(found("Zink", "pigment"), Ok(2));
+        assert_eq!(found("titanweiss", "pigment"), Ok(0));
+        assert!(matches!(found("Titan", "pigment"), Err(FittingError::Ambiguous { .. })));
+        for (name, what) in [("Zink", "sample"), ("", "pigment"), ("Blei", "pigment")] {
+            assert!(matches!(found(name, what), Err(FittingError::UnknownName { .. })), "{name}");
+        }
+    }
     use crate::fitting::{FilmModel, PreparedFit, fit};
     use crate::observation::BelowSurface;
     use crate::readings::Readings;

@@ -15,6 +15,7 @@ use spectra::referencing::{
 use crate::measurement::{
     LargeCsv, LargeCsvChoice, LargeCsvError, MeasurementError, MeasurementTable, Recipes,
     RecipesError, RecordChoice, Scale, ScaleChoice, begins_with_samples, is_measurement_csv,
+    joined_over_files, split_by_file,
 };
 use crate::swatch::SwatchSet;
 
@@ -187,7 +188,7 @@ impl Readings {
             let bytes = bytes.as_ref();
             found.add(of_bytes(file, bytes, options, references.as_ref(), spectra_only)?);
         }
-        found.joined(references.as_ref())
+        found.joined(references.as_ref(), spectra_only)
     }
 
     fn open_files<P: AsRef<Path>>(
@@ -205,7 +206,7 @@ impl Readings {
             let (file, bytes) = content(path.as_ref())?;
             found.add(of_bytes(&file, &bytes, options, references.as_ref(), spectra_only)?);
         }
-        found.joined(references.as_ref())
+        found.joined(references.as_ref(), spectra_only)
     }
 }
 
@@ -226,7 +227,19 @@ impl Found {
         self.remarks.extend(remarks);
     }
 
-    fn joined(mut self, references: Option<&References>) -> Result<Readings, ReadingsError> {
+    /// Joins the tables. If only the spectra matter, readings of several files are never one sample. Recipes
+    /// may say that they are.
+    fn joined(
+        mut self,
+        references: Option<&References>,
+        spectra_only: bool,
+    ) -> Result<Readings, ReadingsError> {
+        let shared = if spectra_only {
+            split_by_file(&mut self.tables)
+        } else {
+            joined_over_files(&self.tables)
+        };
+        self.remarks.extend(shared.map(Remark::warning));
         self.remarks.splice(0..0, references.and_then(References::remark));
         let files = references.iter().flat_map(|references| &references.opened.files);
         self.inputs.extend(files.map(|(file, bytes)| Input::new(file, bytes)));

@@ -250,6 +250,7 @@ pub(super) fn of_pixels(
         wavelengths_nm: ordered.wavelengths_nm,
         values: ordered.values,
         line: 1,
+        point_lines: ordered.lines,
         details: Vec::new(),
         remarks: (dropped > 0).then_some(remark).into_iter().chain(ordered.remarks).collect(),
     })

@@ -9,6 +9,7 @@ use super::decode::{Decimal, lines, number, required_number};
 use super::measured::{InstrumentError, MeasuredSpectrum, Role, Unit, stem};
 use super::points::{Duplicates, Ordered, Point, ordered};
 use super::quantity::MeasuredQuantity;
+use crate::headings::{condition, with_condition};
 
 pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let mut records = Vec::new();
@@ -150,6 +151,7 @@ impl Table {
                 wavelengths_nm: ordered.wavelengths_nm,
                 values: ordered.values,
                 line: row.first().map_or(end, |(line, _)| *line),
+                point_lines: ordered.lines,
                 details: details.clone(),
                 remarks: ordered.remarks,
             })
@@ -219,6 +221,8 @@ pub(super) struct Fields {
     norm: Option<f64>,
     name: Option<usize>,
     id: Option<usize>,
+    /// Columns of conditions, each with its name.
+    conditions: Vec<(usize, String)>,
     remarks: Vec<String>,
 }
 
@@ -266,6 +270,12 @@ impl Fields {
             norm: keyword_number("SPECTRAL_NORM").filter(|norm| *norm > 0.0),
             name: position_of(&upper, &["SAMPLE_NAME", "SAMPLENAME"]),
             id: position_of(&upper, &["SAMPLE_ID", "SAMPLEID", "SAMPLE_LOC"]),
+            conditions: names
+                .iter()
+                .enumerate()
+                .filter(|(_, (_, name))| condition(name).is_some())
+                .map(|(column, (_, name))| (column, name.clone()))
+                .collect(),
             remarks: Vec::new(),
         };
         if let (Some(bands), Some(start), Some(end)) = (
@@ -301,7 +311,8 @@ impl Fields {
     }
 
     /// The name of each row: SAMPLE_NAME if it differs between rows, otherwise SAMPLE_ID,
-    /// otherwise `stem` with a number.
+    /// otherwise `stem` with a number. Rows of one name that differ in a condition, such as an angle, are
+    /// named by it too.
     pub(super) fn names(&self, rows: &[Vec<Cell>], stem: &str) -> Vec<String> {
         let column = |column: usize| rows.iter().map(move |row| row[column].1.as_str());
         let distinguishing = [self.name, self.id].into_iter().flatten().find(|&index| {
@@ -309,11 +320,22 @@ impl Fields {
             let differs = rows.len() < 2 || column(index).any(|name| name != rows[0][index].1);
             all_named && differs
         });
-        match distinguishing {
+        let plain: Vec<String> = match distinguishing {
             Some(index) => column(index).map(str::to_owned).collect(),
             None if rows.len() == 1 => vec![stem.to_owned()],
             None => (1..=rows.len()).map(|row| format!("{stem} {row}")).collect(),
+        };
+        let mut names = plain.clone();
+        for (index, heading) in &self.conditions {
+            for (at, name) in names.iter_mut().enumerate() {
+                let value = &rows[at][*index].1;
+                let mut others = plain.iter().zip(rows).filter(|(other, _)| **other == plain[at]);
+                if !value.is_empty() && others.any(|(_, other)| other[*index].1 != *value) {
+                    *name = with_condition(name, heading, value);
+                }
+            }
         }
+        names
     }
 
     pub(super) fn spectrum(
@@ -436,6 +458,15 @@ mod tests {
             (found[1].quantity, found[1].unit),
             (MeasuredQuantity::Unstated, Unit::Unstated)
         );
+    }
+
+    #[test]
+    fn rows_of_one_name_are_told_apart_by_their_angle() {
+        let text = "CGATS.17\nBEGIN_DATA_FORMAT\nSAMPLE_NAME ANGLE SPECTRAL_NM400 SPECTRAL_NM410\n\
+            END_DATA_FORMAT\nBEGIN_DATA\nRed 15 0.1 0.1\nRed 45 0.2 0.2\nBlue 15 0.3 0.3\nEND_DATA\n";
+        let found = read("f", text).unwrap();
+        let names: Vec<&str> = found.iter().map(|record| record.name.as_str()).collect();
+        assert_eq!(names, ["Red ANGLE 15", "Red ANGLE 45", "Blue"]);
     }
 
     #[test]

@@ -5,9 +5,10 @@
 //! (.dpt) are columns without a heading.
 
 use super::decode::{Decimal, lines, number, required_number};
-use super::measured::{InstrumentError, MeasuredSpectrum, Role, Unit, stem};
+use super::measured::{InstrumentError, MeasuredSpectrum, Role, Unit, deviations, stem};
 use super::points::{Duplicates, Point, ordered};
 use super::quantity::MeasuredQuantity;
+use crate::headings::{is_wavelength, name_rank, without_unit};
 
 /// Whether `text` consists of columns: most lines are numbers, and each starts with a wavelength.
 pub(super) fn is_column_text(text: &str) -> bool {
@@ -32,18 +33,17 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
     let table = table(file, text)?;
     let Some(first) = table.rows.first() else { return Ok(Vec::new()) };
     let width = first.1.len();
-    let headings = table.headings(width);
+    let heads = table.heads(width);
     let commas = table.layout.is_some_and(|layout| layout.separator == Some(','));
-    if headings.is_empty() && width > 2 && commas {
+    if heads.is_empty() && width > 2 && commas && !table.has_points {
         // `400,0,5` may contain a decimal comma.
         let expected = "a wavelength and one value, or a heading for every column";
         let line = lines(text).nth(first.0 - 1).map_or("", |(_, line)| line);
         return Err(InstrumentError::line(file, first.0, expected, line));
     }
     let words: String = table.above.join(" ");
-    let axis = headings.first().and_then(|heading| Axis::of_words(heading));
+    let axis = heads.first().and_then(|head| Axis::of_words(head.lowest()));
     let axis = axis.or_else(|| Axis::of_words(&words)).unwrap_or(Axis::Nanometres);
-    let of_values = headings.get(1..).unwrap_or_default();
     let above = table.above.iter().map(|line| MeasuredQuantity::of_words(line));
     let stated = |quantity: &MeasuredQuantity| {
         !matches!(quantity, MeasuredQuantity::Deviation | MeasuredQuantity::Unstated)
@@ -52,46 +52,108 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
         None if is_of_a_light(&words) => MeasuredQuantity::Power,
         stated => stated.unwrap_or(MeasuredQuantity::Unstated),
     };
+    let of_values: Vec<&str> = heads.iter().skip(1).map(ColumnHead::lowest).collect();
     let quantities: Vec<MeasuredQuantity> = (1..width)
         .map(|column| {
-            let heading = headings.get(column).copied().unwrap_or_default();
-            match MeasuredQuantity::of_heading(heading, of_values) {
+            let head = heads.get(column);
+            match head.map_or(MeasuredQuantity::Unstated, |head| head.quantity(&of_values)) {
                 MeasuredQuantity::Unstated => above,
                 stated => stated,
             }
         })
         .collect();
-    let is_deviation = |column: usize| quantities[column - 1] == MeasuredQuantity::Deviation;
+    let names: Vec<String> = heads.iter().skip(1).map(ColumnHead::name).collect();
+    let of_others = deviations(&names.iter().map(String::as_str).collect::<Vec<&str>>());
+    let is_deviation = |column: usize| {
+        quantities[column - 1] == MeasuredQuantity::Deviation
+            || of_others.get(column - 1) == Some(&true)
+    };
     let (deviations, kept): (Vec<usize>, Vec<usize>) = (1..width).partition(|c| is_deviation(*c));
     let kept = if kept.is_empty() { deviations.clone() } else { kept };
     kept.iter()
         .map(|&column| {
-            let heading = headings.get(column).copied().unwrap_or_default();
             let quantity = quantities[column - 1];
-            let name = if width > 2 && !heading.is_empty() {
-                heading.to_owned()
-            } else if width > 2 {
-                format!("{} {column}", stem(file))
-            } else if is_name(heading) {
-                heading.to_owned()
-            } else {
-                stem(file)
+            let name = match heads.get(column).map(ColumnHead::name) {
+                Some(name) if is_name(&name) => name,
+                Some(name) if kept.len() > 1 && !name.is_empty() => name,
+                _ if width > 2 && kept.len() > 1 => format!("{} {column}", stem(file)),
+                _ => stem(file),
             };
-            let unit = if heading.contains('%') || words.contains('%') {
-                Unit::Percent
-            } else {
-                Unit::Unstated
-            };
+            let is_percent =
+                heads.get(column).is_some_and(ColumnHead::states_percent) || states_percent(&words);
+            let unit = if is_percent { Unit::Percent } else { Unit::Unstated };
             let label = ColumnLabel { name, quantity, unit };
             let mut record = table.spectrum(file, column, axis, label)?;
             if column == kept[0] && kept != deviations {
-                record.remarks.extend(deviations.iter().map(|&column| {
-                    format!("the column `{}` holds deviations and is left out", headings[column])
-                }));
+                let mut names: Vec<String> = Vec::new();
+                for name in deviations.iter().map(|&column| heads[column].lowest().to_owned()) {
+                    if !names.contains(&name) {
+                        names.push(name);
+                    }
+                }
+                record.remarks.extend(
+                    names.iter().map(|name| {
+                        format!("the column `{name}` holds deviations and is left out")
+                    }),
+                );
             }
             Ok(record)
         })
         .collect()
+}
+
+/// Whether a `%` in `words` is a unit. `100% abundance` is a figure.
+fn states_percent(words: &str) -> bool {
+    words
+        .match_indices('%')
+        .any(|(at, _)| !words[..at].trim_end().ends_with(|letter: char| letter.is_ascii_digit()))
+}
+
+/// The cells above a column, from the lowest row up. Some tables have two rows of headings: doses above
+/// `mean` and `std`, or names above units.
+struct ColumnHead<'a>(Vec<&'a str>);
+
+impl<'a> ColumnHead<'a> {
+    fn lowest(&self) -> &'a str {
+        self.0.first().copied().unwrap_or_default()
+    }
+
+    /// The cells that name a sample, from the highest down. If none does, the lowest cell.
+    fn name(&self) -> String {
+        let telling = self.0.iter().rev().filter(|cell| is_name(cell));
+        let telling: Vec<&str> = telling.map(|cell| without_unit(cell).0).collect();
+        if telling.is_empty() { self.lowest().to_owned() } else { telling.join(" ") }
+    }
+
+    /// The quantity that the cells state. `of_values` are the lowest cells of all columns of values.
+    fn quantity(&self, of_values: &[&str]) -> MeasuredQuantity {
+        let lowest = MeasuredQuantity::of_heading(self.lowest(), of_values);
+        let mut all: Vec<MeasuredQuantity> =
+            self.0.iter().skip(1).map(|cell| MeasuredQuantity::of_words(cell)).collect();
+        all.insert(0, lowest);
+        let is_deviation = all.contains(&MeasuredQuantity::Deviation);
+        let stated = all.into_iter().find(|quantity| *quantity != MeasuredQuantity::Unstated);
+        match stated {
+            Some(_) if is_deviation => MeasuredQuantity::Deviation,
+            stated => stated.unwrap_or(MeasuredQuantity::Unstated),
+        }
+    }
+
+    fn states_percent(&self) -> bool {
+        self.0.iter().any(|cell| states_percent(cell))
+    }
+}
+
+/// Number of different names among the columns of values that hold no deviations, and whether each
+/// column has a cell that names it.
+fn told_apart(heads: &[ColumnHead<'_>]) -> (usize, bool) {
+    let values = heads.iter().skip(1);
+    let values = values.filter(|head| head.quantity(&[]) != MeasuredQuantity::Deviation);
+    let mut names: Vec<String> = values.map(ColumnHead::name).collect();
+    let all_named = names.iter().all(|name| is_name(name));
+    names.sort_unstable();
+    names.dedup();
+    (names.len(), all_named)
 }
 
 /// Whether the lines above the rows state figures of a light, e.g. lux. Light meters write these.
@@ -109,6 +171,7 @@ fn is_name(heading: &str) -> bool {
     let lower = heading.to_ascii_lowercase();
     let generic = ["", "r", "%r", "y", "v", "value", "values", "intensity", "spd", "spectrum"];
     !generic.contains(&lower.as_str())
+        && heading.chars().any(char::is_alphanumeric)
         && MeasuredQuantity::of_words(heading) == MeasuredQuantity::Unstated
 }
 
@@ -123,16 +186,58 @@ pub(super) struct ColumnLabel {
 pub(super) struct NumberTable<'a> {
     pub(super) above: Vec<&'a str>,
     layout: Option<Layout>,
+    /// Whether a number has a decimal point.
+    has_points: bool,
     /// Rows with their line numbers. All rows have the same number of cells, at least 2.
     pub(super) rows: Vec<(usize, Vec<f64>)>,
 }
 
-impl NumberTable<'_> {
-    /// The headings. We take the last line above the rows that has one for every column.
-    fn headings(&self, width: usize) -> Vec<&str> {
+impl<'a> NumberTable<'a> {
+    /// What stands above each column. It is empty if no line above the rows has cells for the columns.
+    ///
+    /// The names stand in the lowest line that begins with a word for wavelengths, else in the lowest that
+    /// begins with a word for names, else in the lowest. If they are alike, or if they are quantities, we
+    /// add the cells of lines above. A cell of those reaches to the next one, as merged cells do.
+    fn heads(&self, width: usize) -> Vec<ColumnHead<'a>> {
         let Some(layout) = self.layout else { return Vec::new() };
-        let cells = self.above.iter().rev().map(|line| layout.cells(line));
-        cells.into_iter().find(|cells| cells.len() == width).unwrap_or_default()
+        let lines = self.above.iter().rev().map(|line| layout.cells(line));
+        let lines: Vec<Vec<&str>> =
+            lines.filter(|cells| (2..=width).contains(&cells.len())).collect();
+        let find = |is_wanted: &dyn Fn(&[&str]) -> bool| {
+            let is_full = |cells: &Vec<&str>| cells.len() == width && is_wanted(cells);
+            lines.iter().position(is_full)
+        };
+        let axis = |cells: &[&str]| {
+            let is_other =
+                matches!(Axis::of_words(cells[0]), Some(Axis::Micrometres | Axis::Wavenumbers));
+            is_other || is_wavelength(cells[0])
+        };
+        let lowest = find(&axis)
+            .or_else(|| find(&|cells| name_rank(cells[0]).is_some()))
+            .or_else(|| find(&|_| true))
+            .or_else(|| lines.iter().position(|cells| axis(cells)));
+        let Some(lowest) = lowest else { return Vec::new() };
+        let mut heads: Vec<ColumnHead<'a>> = Vec::new();
+        for line in &lines[lowest..] {
+            let (names, all_named) = told_apart(&heads);
+            let count = heads.iter().skip(1);
+            let count = count.filter(|h| h.quantity(&[]) != MeasuredQuantity::Deviation).count();
+            if !heads.is_empty() && all_named && names == count {
+                break;
+            }
+            let added: Vec<ColumnHead<'a>> = if heads.is_empty() {
+                let cells = (0..width).map(|at| line.get(at).copied().unwrap_or_default());
+                cells.map(|cell| ColumnHead(vec![cell])).collect()
+            } else {
+                let both = heads.iter().zip(filled(line, width));
+                both.map(|(head, cell)| ColumnHead([&head.0[..], &[cell]].concat())).collect()
+            };
+            let names_samples = !all_named && name_rank(line[0]).is_some();
+            if heads.is_empty() || told_apart(&added).0 > names || names_samples {
+                heads = added;
+            }
+        }
+        heads
     }
 
     pub(super) fn spectrum(
@@ -156,21 +261,34 @@ impl NumberTable<'_> {
             wavelengths_nm: ordered.wavelengths_nm,
             values: ordered.values,
             line: self.rows.first().map_or(1, |(line, _)| *line),
+            point_lines: ordered.lines,
             details: Vec::new(),
             remarks: ordered.remarks,
         })
     }
 }
 
+/// `width` cells, in which each empty one of values has the text of the one before.
+fn filled<'a>(cells: &[&'a str], width: usize) -> Vec<&'a str> {
+    let mut filled: Vec<&str> = Vec::with_capacity(width);
+    for column in 0..width {
+        let own = cells.get(column).copied().unwrap_or_default();
+        let before = if column > 1 { filled[column - 1] } else { "" };
+        filled.push(if own.is_empty() { before } else { own });
+    }
+    filled
+}
+
 /// Reads the rows of numbers in a text. All lines after the first row must be rows.
 pub(super) fn table<'a>(file: &str, text: &'a str) -> Result<NumberTable<'a>, InstrumentError> {
     let layout = Layout::of(content(text).map(|(_, line)| line));
-    let mut table = NumberTable { above: Vec::new(), layout, rows: Vec::new() };
+    let mut table = NumberTable { above: Vec::new(), layout, has_points: false, rows: Vec::new() };
     for (number, line) in content(text) {
         let width = table.rows.first().map_or(0, |(_, row)| row.len());
         match layout {
             Some(layout) if width > 0 || layout.is_row(line) => {
                 table.rows.push((number, layout.numbers(file, number, line, width)?));
+                table.has_points |= line.contains('.');
             }
             _ => table.above.push(line),
         }
@@ -249,17 +367,24 @@ impl Layout {
             let cells = lines.clone().map(|line| split(line, separator));
             let rows = cells.filter(|cells| is_row(cells));
             let mut count = 0;
-            let mut commas = false;
-            for row in rows {
-                count += 1;
-                commas |= row.iter().any(|cell| cell.contains(','));
-            }
+            let cells: Vec<&str> = rows.inspect(|_| count += 1).flatten().collect();
             if count > best.0 {
-                let decimal = if commas { Decimal::Comma } else { Decimal::Point };
+                let decimal = Self::decimal_of(cells.into_iter());
                 best = (count, Some(Self { separator, decimal }));
             }
         }
         best.1
+    }
+
+    /// The decimal sign of the numbers in `cells`. If both signs occur, we take the more frequent, so that
+    /// an error names a cell with the other.
+    pub(super) fn decimal_of<'a>(cells: impl Iterator<Item = &'a str>) -> Decimal {
+        let [mut commas, mut points] = [0_usize; 2];
+        for cell in cells {
+            commas += usize::from(cell.contains(','));
+            points += usize::from(cell.contains('.'));
+        }
+        if commas > 0 && commas >= points { Decimal::Comma } else { Decimal::Point }
     }
 
     /// The cells of a line, trimmed, but not the empty ones at its end.
@@ -294,7 +419,7 @@ impl Layout {
     }
 }
 
-fn split(line: &str, separator: Option<char>) -> Vec<&str> {
+pub(super) fn split(line: &str, separator: Option<char>) -> Vec<&str> {
     let mut cells: Vec<&str> = match separator {
         Some(separator) => {
             // A separator between quotes is part of its cell.

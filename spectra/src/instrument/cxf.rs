@@ -136,6 +136,7 @@ fn spectrum(
         wavelengths_nm: ordered.wavelengths_nm,
         values: ordered.values,
         line: object.line,
+        point_lines: Vec::new(),
         details,
         remarks: order.into_iter().chain(ordered.remarks).collect(),
     };

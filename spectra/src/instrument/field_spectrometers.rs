@@ -108,6 +108,7 @@ pub(super) fn read_asd_binary(
         wavelengths_nm: ordered.wavelengths_nm,
         values: ordered.values,
         line: 1,
+        point_lines: ordered.lines,
         details,
         remarks: (dropped > 0).then_some(remark).into_iter().collect(),
     }])

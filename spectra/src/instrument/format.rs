@@ -6,7 +6,9 @@
 
 use super::decode::{Archive, decode_text, is_utf16, is_zip, lines};
 use super::measured::InstrumentError;
-use super::{avantes, columns, field_spectrometers, light_meters, ocean_optics, workbook};
+use super::{
+    avantes, columns, field_spectrometers, light_meters, long_table, ocean_optics, workbook,
+};
 
 /// A file format of measuring instruments.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -160,7 +162,8 @@ impl Format {
         if light_meters::is_uprtek(text) {
             return Some(Self::Uprtek);
         }
-        columns::is_column_text(text).then_some(Self::Columns)
+        let is_table = long_table::is_long_table(text) || columns::is_column_text(text);
+        is_table.then_some(Self::Columns)
     }
 }
 

@@ -106,6 +106,7 @@ impl Block<'_> {
                     wavelengths_nm: ordered.wavelengths_nm,
                     values: ordered.values,
                     line: page.line,
+                    point_lines: ordered.lines,
                     details,
                     remarks: ordered.remarks,
                 })
@@ -172,6 +173,7 @@ impl Block<'_> {
             wavelengths_nm: ordered.wavelengths_nm,
             values: ordered.values,
             line,
+            point_lines: ordered.lines,
             details: self.details(),
             remarks: ordered.remarks,
         }))

@@ -93,6 +93,7 @@ pub(super) fn read_uprtek(
             wavelengths_nm: ordered.wavelengths_nm,
             values: ordered.values,
             line: *first_line,
+            point_lines: ordered.lines,
             details: details
                 .iter()
                 .filter_map(|(key, cells)| Some((key.clone(), (*cells.get(column)?).to_owned())))
@@ -184,6 +185,7 @@ fn spectrum(
         wavelengths_nm: ordered.wavelengths_nm,
         values: ordered.values,
         line: rows.first().map_or(1, |row| row.line),
+        point_lines: ordered.lines,
         details,
         remarks: ordered.remarks,
     })
@@ -225,6 +227,7 @@ pub(super) fn read_tm27(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>,
             wavelengths_nm: ordered.wavelengths_nm,
             values: ordered.values,
             line: distribution.line,
+            point_lines: ordered.lines,
             details,
             remarks: order.into_iter().chain(ordered.remarks).collect(),
         });

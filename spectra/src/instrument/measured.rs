@@ -1,6 +1,7 @@
 //! One spectrum from an instrument's file, how you choose one by name, and errors that name their
 //! place in the file.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use documents::file::disk::is_file;
@@ -53,6 +54,8 @@ pub struct MeasuredSpectrum {
     pub values: Vec<f64>,
     /// Number of the line on which the spectrum begins, from 1.
     pub line: usize,
+    /// Number of the line of each value. Empty if we do not keep them, e.g. if one line holds all values.
+    pub point_lines: Vec<usize>,
     /// Other facts that the file states about the spectrum, e.g. geometry, instrument or integration time:
     /// pairs of keyword and text in the order of the file.
     pub details: Vec<(String, String)>,
@@ -61,6 +64,13 @@ pub struct MeasuredSpectrum {
 }
 
 impl MeasuredSpectrum {
+    /// Number of the line of the value at `nm`, from 1.
+    #[must_use]
+    pub fn line_at(&self, nm: f64) -> usize {
+        let index = self.wavelengths_nm.iter().position(|own| *own == nm);
+        index.and_then(|index| self.point_lines.get(index)).copied().unwrap_or(self.line)
+    }
+
     /// Whether the values are in percent. If the file does not state this, they are when any
     /// exceeds 2.
     #[must_use]
@@ -137,6 +147,31 @@ pub(super) fn stem(file: &str) -> String {
     path.file_stem().map_or_else(|| file.to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
 
+/// Which of `names`, the headings of columns or the names of rows, hold the standard deviations or errors of
+/// others: `std` beside `mean`, or `Red std` beside `Red` or `Red mean`.
+#[must_use]
+pub fn deviations(names: &[&str]) -> Vec<bool> {
+    let is_deviation =
+        |word: &String| MeasuredQuantity::of_words(word) == MeasuredQuantity::Deviation;
+    let all_words = names.iter().map(|name: &&str| {
+        let words = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+        words.map(str::to_lowercase).collect()
+    });
+    let all_words: Vec<Vec<String>> = all_words.collect();
+    let without = |words: &[String], left_out: &[&str]| -> Vec<String> {
+        let kept = words.iter().filter(|word| !left_out.contains(&word.as_str()));
+        kept.filter(|word| !is_deviation(word)).cloned().collect()
+    };
+    let means = all_words.iter().filter(|words| !words.is_empty());
+    let means = means.filter(|words| !words.iter().any(is_deviation));
+    let means: BTreeSet<Vec<String>> =
+        means.map(|words| without(words, &["mean", "avg", "average"])).collect();
+    let are_deviations = all_words.iter().map(|words| {
+        words.iter().any(is_deviation) && means.contains(&without(words, &["standard"]))
+    });
+    are_deviations.collect()
+}
+
 /// Maximum number of names listed in an error.
 const LISTED: usize = 8;
 
@@ -164,7 +199,7 @@ pub fn choose_spectrum<'a>(
     let found: Vec<&MeasuredSpectrum> = spectra
         .iter()
         .filter(|spectrum| match name {
-            Some(name) => spectrum.name == name,
+            Some(name) => is_called(spectrum, file, spectra, name),
             None => spectrum.role == Role::Main || !has_main,
         })
         .collect();
@@ -179,6 +214,20 @@ pub fn choose_spectrum<'a>(
             Err(ChoiceError::Several { file, count: found.len(), names })
         }
     }
+}
+
+/// Whether `spectrum` has this name. A number selects the spectrum that we named by its column in a file
+/// without headings.
+fn is_called(
+    spectrum: &MeasuredSpectrum,
+    file: &str,
+    spectra: &[MeasuredSpectrum],
+    name: &str,
+) -> bool {
+    if name.parse::<usize>().is_err() || spectra.iter().any(|other| other.name == name) {
+        return spectrum.name == name;
+    }
+    spectrum.name == format!("{} {name}", stem(file))
 }
 
 fn names<'a>(spectra: impl Iterator<Item = &'a MeasuredSpectrum>) -> Vec<String> {

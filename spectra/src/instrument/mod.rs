@@ -8,6 +8,7 @@ mod measured;
 mod points;
 mod decode;
 mod columns;
+mod long_table;
 mod avantes;
 mod field_spectrometers;
 mod qtx;
@@ -26,9 +27,10 @@ pub use cxf::{CxfHead, write_cxf};
 pub use decode::decode_text;
 pub use documents::file::split_file_and_sheet;
 pub use format::{FileText, Format};
+pub use long_table::is_long_table;
 pub use measured::{
     ChoiceError, InstrumentError, MeasuredSpectrum, ReflectanceError, Role, Unit, choose_spectrum,
-    split_file_and_name,
+    deviations, split_file_and_name,
 };
 pub use quantity::MeasuredQuantity;
 pub use read::{InstrumentFile, OpenError, OpenedSpectrum, bytes_of, open, open_spectrum, read};

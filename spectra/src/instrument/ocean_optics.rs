@@ -201,6 +201,7 @@ pub(super) fn read_procspec(
             wavelengths_nm: ordered.wavelengths_nm,
             values: ordered.values,
             line: values[0].0,
+            point_lines: ordered.lines,
             details: details.clone(),
             remarks: ordered.remarks,
         });

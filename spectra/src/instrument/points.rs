@@ -27,6 +27,8 @@ pub(super) struct Point {
 pub(super) struct Ordered {
     pub(super) wavelengths_nm: Vec<f64>,
     pub(super) values: Vec<f64>,
+    /// Line of each value, the first where several were averaged.
+    pub(super) lines: Vec<usize>,
     pub(super) remarks: Vec<String>,
 }
 
@@ -81,6 +83,7 @@ pub(super) fn ordered(
         }
         repeated += usize::from(group.len() > 1);
         ordered.wavelengths_nm.push(first.nm);
+        ordered.lines.push(first.line);
         // Each value is scaled before summing, because a sum of finite values may overflow.
         let share = 1.0 / group.len() as f64;
         ordered.values.push(group.iter().map(|point| point.value).map(|value| value * share).sum());

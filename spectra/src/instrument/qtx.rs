@@ -103,6 +103,7 @@ impl Section {
             wavelengths_nm: ordered.wavelengths_nm,
             values: ordered.values,
             line: name.map_or(at, |(line, _, _)| *line),
+            point_lines: Vec::new(),
             details: pairs
                 .filter(|(_, key, _)| key != "NAME" && !key.starts_with("REFL"))
                 .map(|(_, key, value)| (key.clone(), value.clone()))

@@ -10,7 +10,8 @@ use super::measured::{
     ChoiceError, InstrumentError, MeasuredSpectrum, choose_spectrum, split_file_and_name,
 };
 use super::{
-    avantes, cgats, columns, cxf, field_spectrometers, jcamp, light_meters, ocean_optics, qtx,
+    avantes, cgats, columns, cxf, field_spectrometers, jcamp, light_meters, long_table,
+    ocean_optics, qtx,
 };
 
 /// The content of an instrument's file.
@@ -41,6 +42,9 @@ pub fn read(
         Format::OceanOptics => ocean_optics::read_text(file, &text.text),
         Format::Avantes => avantes::read_text(file, &text.text),
         Format::Bruker => columns::read_bruker(file, &text.text),
+        Format::Columns | Format::Workbook if long_table::is_long_table(&text.text) => {
+            long_table::read(file, &text.text)
+        }
         Format::Columns | Format::Workbook => columns::read(file, &text.text),
         Format::Cxf => cxf::read(file, &text.text),
         Format::Tm27 => light_meters::read_tm27(file, &text.text),

@@ -139,6 +139,7 @@ impl Referencing {
             wavelengths_nm: band.nm,
             values: band.reflectance,
             line: sample.line,
+            point_lines: Vec::new(),
             details,
             remarks,
         })
@@ -672,6 +673,7 @@ mod tests {
                 wavelengths_nm: vec![400.0],
                 values: vec![1.0],
                 line: 1,
+                point_lines: Vec::new(),
                 details: vec![(key.to_owned(), value.to_owned())],
                 remarks: Vec::new(),
             };

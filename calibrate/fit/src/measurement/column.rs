@@ -1,12 +1,12 @@
 //! Meaning of the columns of a measurement file, found from their headers.
 //!
-//! Instruments' programs write a title or lines about the measurement above the headings, and spreadsheets
-//! write a line `sep=;`. We find here the row of headings, the column of names, and columns of colour
-//! coordinates, which we skip.
+//! We find here the column of names, and the columns of colours and notes, which we skip.
 
 use spectra::csv_table::{CellPlace, CsvTableError, wavelength_of_header};
+use spectra::headings::{self, condition, is_wavelength, name_rank, plain, without_unit};
 
 use super::error::MeasurementError;
+use super::scale::MEASURABLE_NM;
 
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Column {
@@ -17,16 +17,22 @@ pub(super) enum Column {
     Replicate,
     /// In a file of recipes: the name of the reading in the measurement file.
     Reading,
+    /// A property under which samples are read several times, e.g. a geometry.
+    Condition,
     /// Notes of an instrument or its user; not a pigment.
     Ignored,
     Pigment(String),
     Wavelength(f64),
+    /// A wavelength at which no colour instrument measures.
+    Outside(f64),
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum TableKind {
     /// Readings, with wavelengths.
     Readings,
+    /// Readings of which only names, films and wavelengths matter.
+    Spectra,
     /// Recipes, without wavelengths.
     Recipes,
 }
@@ -42,7 +48,7 @@ pub(super) fn columns(
     pigments: Option<&[String]>,
 ) -> Result<Vec<Column>, MeasurementError> {
     // A header such as R254 may be a pigment (e.g. Pigment Red 254) or a wavelength.
-    let letters = kind == TableKind::Readings
+    let letters = kind != TableKind::Recipes
         && !headers.iter().any(|header: &String| {
             let lower = header.trim().to_ascii_lowercase();
             !is_letter_and_number(&lower) && wavelength_of_header(&lower).is_some()
@@ -66,13 +72,6 @@ pub(super) fn columns(
             let number = index + 1;
             return Err(MeasurementError::UnnamedColumn { file, row, number });
         }
-        if let Some(before) = headers[..index].iter().position(|h| h.trim() == name) {
-            return Err(MeasurementError::RepeatedColumn {
-                place: place(index),
-                first: before + 1,
-                second: index + 1,
-            });
-        }
         if name.contains(char::is_control) {
             return Err(MeasurementError::Sheet(CsvTableError::Cell {
                 place: place(index),
@@ -80,26 +79,34 @@ pub(super) fn columns(
                 text: name.escape_default().to_string(),
             }));
         }
-        let column = match name.to_ascii_lowercase().as_str() {
-            "reading" if kind == TableKind::Recipes => Some(Column::Reading),
+        // `Red [%]` and `Red (g)` are the pigment Red.
+        let bare = without_unit(name).0;
+        let is_listed = |names: &[String]| names.iter().any(|own| own == name || own == bare);
+        let listed = pigments.map(is_listed);
+        let column = match column(name, letters) {
+            _ if kind == TableKind::Recipes && is_reading(name) => Column::Reading,
             // Readings without the specular component beside those with it are other readings.
-            _ if has_included && excludes_specular(name) => Some(Column::Ignored),
-            _ => column(name, letters),
-        };
-        columns.push(
-            match (column.ok_or_else(|| MeasurementError::WavelengthRange(place(index)))?, pigments)
+            _ if has_included && excludes_specular(name) => Column::Ignored,
+            Column::Pigment(_)
+            | Column::Ignored
+            | Column::Condition
+            | Column::Outside(_)
+            | Column::Wavelength(_)
+                if listed == Some(true) =>
             {
-                (Column::Pigment(_) | Column::Ignored, Some(names))
-                    if names.iter().any(|pigment| pigment == name) =>
-                {
-                    Column::Pigment(name.to_owned())
-                }
-                (Column::Pigment(_), Some(_)) => Column::Ignored,
-                (Column::Pigment(_), None) if is_coordinate(headers, index) => Column::Ignored,
-                (column, _) => column,
-            },
-        );
+                let own = pigments.into_iter().flatten().find(|own| *own == name);
+                Column::Pigment(own.map_or(bare, String::as_str).to_owned())
+            }
+            Column::Pigment(_) if listed == Some(false) || kind == TableKind::Spectra => {
+                Column::Ignored
+            }
+            Column::Pigment(_) if is_coordinate(headers, index) => Column::Ignored,
+            column => column,
+        };
+        columns.push(column);
     }
+    decide_outside(place, kind, pigments.is_some(), headers, &mut columns)?;
+    check_repeated(place, headers, &columns)?;
     let file = headers.first().map_or_else(String::new, |_| place(0).file);
     if !columns.contains(&Column::Sample) {
         let column = "sample";
@@ -110,7 +117,7 @@ pub(super) fn columns(
         _ => None,
     });
     let wavelengths: Vec<(usize, f64)> = wavelengths.collect();
-    if wavelengths.is_empty() && kind == TableKind::Readings {
+    if wavelengths.is_empty() && kind != TableKind::Recipes {
         let column = "400 (a wavelength in nm)";
         return Err(MeasurementError::Sheet(CsvTableError::MissingColumn { file, column }));
     }
@@ -126,6 +133,100 @@ pub(super) fn columns(
         }
     }
     Ok(columns)
+}
+
+/// Decides what the numbers in `columns` are that are no wavelengths from 200 to 2500 nm. Beside those they
+/// go on to shorter or longer ones, and are left out. In recipes they name pigments, e.g. pastes `08` and
+/// `12`.
+fn decide_outside(
+    place: &dyn Fn(usize) -> CellPlace,
+    kind: TableKind,
+    pigments_are_listed: bool,
+    headers: &[String],
+    columns: &mut [Column],
+) -> Result<(), MeasurementError> {
+    let nm: Vec<Option<f64>> = columns
+        .iter()
+        .map(|column| match column {
+            Column::Wavelength(nm) | Column::Outside(nm) => Some(*nm),
+            _ => None,
+        })
+        .collect();
+    let mut goes_on: Vec<bool> =
+        columns.iter().map(|column| matches!(column, Column::Wavelength(_))).collect();
+    let count = columns.len();
+    for index in (1..count).chain((0..count.saturating_sub(1)).rev()) {
+        for (near, far) in [(index.wrapping_sub(1), index.wrapping_sub(2)), (index + 1, index + 2)]
+        {
+            let at = |place: usize| nm.get(place).copied().flatten();
+            if let (Some(own), Some(near_nm), Some(far_nm)) = (at(index), at(near), at(far))
+                && goes_on[near]
+                && goes_on[far]
+                && (1e-6..=2.0).contains(&((own - near_nm) / (near_nm - far_nm)))
+            {
+                goes_on[index] = true;
+            }
+        }
+    }
+    for index in 0..count {
+        if !matches!(columns[index], Column::Outside(_)) || goes_on[index] {
+            continue;
+        }
+        columns[index] = match kind {
+            TableKind::Recipes if !pigments_are_listed => Column::Pigment(headers[index].clone()),
+            TableKind::Readings if !pigments_are_listed => {
+                return Err(MeasurementError::WavelengthRange(place(index)));
+            }
+            _ => Column::Ignored,
+        };
+    }
+    Ok(())
+}
+
+/// Checks that no column that we read occurs twice, and that amounts have one unit.
+fn check_repeated(
+    place: &dyn Fn(usize) -> CellPlace,
+    headers: &[String],
+    columns: &[Column],
+) -> Result<(), MeasurementError> {
+    let mut first_unit: Option<(usize, String)> = None;
+    for (index, column) in columns.iter().enumerate() {
+        match column {
+            Column::Ignored
+            | Column::Condition
+            | Column::Replicate
+            | Column::Wavelength(_)
+            | Column::Outside(_) => continue,
+            _ => {}
+        }
+        if let Some(first) = columns[..index].iter().position(|before| before == column) {
+            return Err(MeasurementError::RepeatedColumn {
+                place: place(index),
+                first: first + 1,
+                second: index + 1,
+            });
+        }
+        let Some(unit) = without_unit(&headers[index]).1.filter(|_| is_pigment(column)) else {
+            continue;
+        };
+        let unit = unit.to_lowercase();
+        match &first_unit {
+            Some((first, first_one)) if *first_one != unit => {
+                return Err(MeasurementError::MixedAmounts {
+                    place: place(index),
+                    unit,
+                    first: headers[*first].clone(),
+                });
+            }
+            Some(_) => {}
+            None => first_unit = Some((index, unit)),
+        }
+    }
+    Ok(())
+}
+
+fn is_pigment(column: &Column) -> bool {
+    matches!(column, Column::Pigment(_))
 }
 
 pub(super) fn is_wavelength_heading(heading: &str) -> bool {
@@ -150,26 +251,46 @@ fn has_word(heading: &str, word: &str) -> bool {
     words.into_iter().any(|found| found.eq_ignore_ascii_case(word))
 }
 
-/// Meaning of the header `name`, or `None` for a number outside the wavelengths at which you measure
-/// paint. `letters` says whether `R400` is a wavelength. It is a pigment if other headers of the table are
-/// plain numbers.
-fn column(name: &str, letters: bool) -> Option<Column> {
+/// Whether a heading has a meaning of its own, and is no note.
+pub(super) fn is_known(name: &str) -> bool {
+    matches!(
+        column(name, false),
+        Column::Film | Column::Backing | Column::Thickness | Column::Replicate | Column::Condition
+    )
+}
+
+/// Meaning of the header `name`. `letters` says whether `R400` is a wavelength. It is a pigment if other
+/// headers of the table are plain numbers.
+fn column(name: &str, letters: bool) -> Column {
     let lower = name.to_ascii_lowercase();
-    match lower.as_str() {
-        "film" => Some(Column::Film),
-        "backing" => Some(Column::Backing),
-        "thickness_mm" => Some(Column::Thickness),
-        "replicate" => Some(Column::Replicate),
-        lower if NO_PIGMENTS.contains(&lower) => Some(Column::Ignored),
-        // Another column holds the names.
-        lower if name_rank(lower).is_some() => Some(Column::Ignored),
-        _ => match wavelength_of_header(&lower) {
-            Some(nm) if !is_letter_and_number(&lower) => {
-                MEASURABLE_NM.contains(&nm).then_some(Column::Wavelength(nm))
+    let plain = plain(name);
+    let known = COLUMNS.iter().find(|(headings, _)| headings.contains(&plain.as_str()));
+    if let Some((_, column)) = known {
+        return column.clone();
+    }
+    if condition(name).is_some() {
+        return Column::Condition;
+    }
+    // If a heading names samples, another column holds the names.
+    if NOTES.contains(&plain.as_str())
+        || name == "#"
+        || is_color(name)
+        || name_rank(name).is_some()
+        || is_wavelength(name)
+    {
+        return Column::Ignored;
+    }
+    match wavelength_of_header(&lower) {
+        Some(nm) if letters || !is_letter_and_number(&lower) => {
+            let is_measured = MEASURABLE_NM.contains(&nm);
+            match is_measured {
+                true => Column::Wavelength(nm),
+                // `R8` is no wavelength.
+                false if is_letter_and_number(&lower) => Column::Pigment(name.to_owned()),
+                false => Column::Outside(nm),
             }
-            Some(nm) if letters && MEASURABLE_NM.contains(&nm) => Some(Column::Wavelength(nm)),
-            _ => Some(Column::Pigment(name.to_owned())),
-        },
+        }
+        _ => Column::Pigment(without_unit(name).0.to_owned()),
     }
 }
 
@@ -177,119 +298,205 @@ fn column(name: &str, letters: bool) -> Option<Column> {
 #[must_use]
 pub fn names_a_pigment(name: &str) -> bool {
     let plain = !name.is_empty() && name.trim() == name && !name.contains(char::is_control);
-    plain && matches!(column(name, false), Some(Column::Pigment(_)))
+    plain && column(name, false) == Column::Pigment(name.to_owned())
 }
 
-/// Wavelengths in nm at which instruments for paint measure.
-pub(super) const MEASURABLE_NM: std::ops::RangeInclusive<f64> = 200.0..=2500.0;
+/// Headings of columns with a meaning, as [`plain`] gives them.
+const COLUMNS: [(&[&str], Column); 4] = [
+    (&["film", "schicht", "couche", "pelicula", "strato", "laag"], Column::Film),
+    (
+        &[
+            "backing",
+            "substrate",
+            "untergrund",
+            "unterlage",
+            "hintergrund",
+            "support",
+            "fond",
+            "soporte",
+            "fondo",
+            "sustrato",
+            "supporto",
+            "sottofondo",
+            "ondergrond",
+            "achtergrond",
+        ],
+        Column::Backing,
+    ),
+    (
+        &[
+            "thicknessmm",
+            "filmthicknessmm",
+            "dickemm",
+            "schichtdickemm",
+            "epaisseurmm",
+            "espesormm",
+            "spessoremm",
+            "diktemm",
+            "laagdiktemm",
+        ],
+        Column::Thickness,
+    ),
+    (
+        &[
+            "replicate",
+            "replikat",
+            "wiederholung",
+            "replicat",
+            "repetition",
+            "replica",
+            "repeticion",
+            "ripetizione",
+            "herhaling",
+        ],
+        Column::Replicate,
+    ),
+];
 
-/// Headings of instruments' tables and of notes, none of which is the name of a pigment.
-const NO_PIGMENTS: [&str; 47] = [
-    "no",
-    "no.",
-    "nr",
-    "nr.",
-    "#",
-    "id",
+/// Whether a column of recipes holds the names of readings.
+fn is_reading(heading: &str) -> bool {
+    [
+        "reading", "messung", "mesure", "lecture", "lectura", "medicion", "lettura", "misura",
+        "meting",
+    ]
+    .contains(&plain(heading).as_str())
+}
+
+/// Headings of notes as [`plain`] gives them, none of which is the name of a pigment.
+const NOTES: [&str; 55] = [
     "index",
     "row",
     "batch",
-    "gloss",
     "temperature",
     "humidity",
     "remark",
-    "l*",
-    "a*",
-    "b*",
-    "c*",
-    "h*",
-    "hue",
-    "chroma",
-    "lab_l",
-    "lab_a",
-    "lab_b",
-    "xyz_x",
-    "xyz_y",
-    "xyz_z",
-    "rgb_r",
-    "rgb_g",
-    "rgb_b",
-    "cie l*",
-    "cie a*",
-    "cie b*",
-    "date",
-    "time",
-    "datetime",
-    "instrument",
-    "serial",
-    "serial number",
-    "operator",
-    "user",
+    "remarks",
+    "note",
+    "notes",
     "comment",
     "comments",
+    "bemerkung",
+    "bemerkungen",
+    "kommentar",
+    "remarque",
+    "remarques",
+    "commentaire",
+    "observaciones",
+    "osservazioni",
+    "opmerking",
+    "opmerkingen",
+    "date",
+    "datum",
+    "fecha",
+    "data",
+    "time",
+    "datetime",
+    "timestamp",
+    "uhrzeit",
+    "heure",
+    "hora",
+    "ora",
+    "tijd",
+    "instrument",
+    "serial",
+    "serialnumber",
+    "operator",
+    "user",
     "illuminant",
     "observer",
-    "geometry",
     "aperture",
-    "filter",
+    "hue",
+    "chroma",
+    "lightness",
+    "hex",
+    "html",
+    "hexcode",
+    "lrv",
+    "opacity",
+    "whiteness",
+    "yellowness",
+    "gloss",
+    "thickness",
+    "metamerism",
+    "tint",
 ];
 
-/// Headings of columns of names in lower case without spaces and signs, the most specific first. We use a
-/// later one only if a table has none of the earlier ones. The last ones are numbers of samples, and the
-/// word `wavelength`, which stands above the names in tables where all other columns are wavelengths.
-const NAMES: [&str; 32] = [
-    "sample",
-    "samplename",
-    "dataname",
-    "usercolorname",
-    "usercolourname",
-    "colorname",
-    "colourname",
-    "name",
-    "originalcolorname",
-    "specimen",
-    "swatch",
-    "patch",
-    "label",
-    "sampleid",
-    "sampleno",
-    "samplenumber",
-    "pigment",
-    "paint",
-    "material",
-    "color",
-    "colour",
-    "title",
-    "filename",
-    "file",
-    "code",
-    "id",
-    "number",
-    "no",
-    "nr",
-    "wavelength",
-    "wavelengthnm",
-    "nm",
+/// Words for a space of colours, in small letters.
+const SPACES: [&str; 16] = [
+    "cie",
+    "cielab",
+    "cielch",
+    "lab",
+    "lch",
+    "lchab",
+    "lchuv",
+    "luv",
+    "xyz",
+    "xyy",
+    "hsl",
+    "hsv",
+    "hsb",
+    "hunterlab",
+    "hunter",
+    "oklab",
 ];
 
-/// First of [`NAMES`] that stands above other columns too. We say that we took it for the names.
-const GUESSED: &str = "pigment";
+/// Words for densities and amounts of inks or lights, in small letters.
+const INKS: [&str; 13] = [
+    "density",
+    "densities",
+    "dichte",
+    "densit\u{e9}",
+    "densidad",
+    "densit\u{e0}",
+    "dichtheid",
+    "rgb",
+    "srgb",
+    "adobergb",
+    "prophoto",
+    "cmyk",
+    "cmy",
+];
 
-/// Whether a column headed `heading` usually holds something else than the names of samples.
-pub(super) fn is_guessed_name(heading: &str) -> bool {
-    let first = NAMES.iter().position(|name| *name == GUESSED).unwrap_or(NAMES.len());
-    name_rank(heading).is_some_and(|rank| rank >= first)
+/// Whether a heading is a coordinate of a colour, a difference of colours or a density, e.g. `L*(D65)`,
+/// `sRGB R`, `LAB_L`, `dE00`, `Density C` or `Gloss60`.
+fn is_color(name: &str) -> bool {
+    let lower = name.to_lowercase();
+    // `L*` alone, with lights and observers behind it.
+    let starred = lower.split_once('*').is_some_and(|(before, _)| {
+        let letter = before.trim_start_matches(['d', '\u{394}', '\u{3b4}', ' ']);
+        let letter = letter.rsplit([' ', '_']).next().unwrap_or_default();
+        ["l", "a", "b", "c", "h", "u", "v", "e", "ab"].contains(&letter)
+    });
+    let words = lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+    let words: Vec<&str> = words.collect();
+    let is_short = |word: &&str| word.len() <= 2 || is_light(word);
+    let is_of = |spaces: &[&str], has_inks: bool| {
+        let (named, others): (Vec<&str>, Vec<&str>) =
+            words.iter().partition(|word| spaces.contains(word));
+        !named.is_empty() && others.iter().all(|w| is_short(w) || (has_inks && is_ink(w)))
+    };
+    let of_space = is_of(&SPACES, false) || is_of(&INKS, true);
+    let difference = name.trim_start().starts_with("dE")
+        || lower.strip_prefix("delta").is_some_and(|rest| {
+            let rest = rest.trim_start_matches([' ', '_', '-']);
+            ["e", "l", "a", "b", "c", "h"].iter().any(|letter| rest.starts_with(letter))
+                && !rest.chars().skip(1).any(char::is_alphabetic)
+        });
+    let gloss = words.first().is_some_and(|word| {
+        word.strip_prefix("gloss").is_some_and(|angle| angle.parse::<f64>().is_ok())
+    });
+    starred || of_space || gloss || difference
 }
 
-/// First of [`NAMES`] that names samples only where all other columns are wavelengths.
-const OVER_NAMES: &str = "wavelength";
+fn is_light(word: &str) -> bool {
+    ["d50", "d55", "d65", "d75", "2deg", "10deg", "deg", "m0", "m1", "m2", "m3"].contains(&word)
+}
 
-/// Rank of a heading among the headings that name samples, 0 for the most specific. `None` for any other
-/// heading.
-pub(super) fn name_rank(heading: &str) -> Option<usize> {
-    let letters = heading.chars().filter(|c| c.is_alphanumeric());
-    let plain: String = letters.flat_map(char::to_lowercase).collect();
-    NAMES.iter().position(|name| *name == plain)
+/// Whether a word beside `density` or `RGB` names a filter or a primary.
+fn is_ink(word: &str) -> bool {
+    ["cyan", "magenta", "yellow", "black", "visual", "vis", "red", "green", "blue", "status"]
+        .contains(&word)
 }
 
 /// The column of names among `headings`. You say with `is_wavelength` which of the headings are
@@ -305,126 +512,23 @@ pub(super) fn name_column(
         let mut others = headings.iter().enumerate().filter(|(index, _)| *index != place);
         headings.len() > 2 && others.all(|(_, heading)| is_wavelength(heading))
     };
-    let over_names = NAMES.iter().position(|name| *name == OVER_NAMES).unwrap_or(NAMES.len());
     match ranked.min() {
-        Some((rank, index)) if rank < over_names || others_are_wavelengths(index) => Some(index),
-        _ => (headings.first() == Some(&"") && others_are_wavelengths(0)).then_some(0),
-    }
-}
-
-/// The first of the columns `places` in which every row has a name, or the first one if none has.
-pub(super) fn filled_column(places: &[usize], rows: &[CsvRow]) -> Option<usize> {
-    places
-        .iter()
-        .find(|place: &&usize| {
-            rows.iter().all(|row| row.cells.get(**place).is_some_and(|name| !name.is_empty()))
-        })
-        .or(places.first())
-        .copied()
-}
-
-/// We look for the headings in this many lines at most (chosen by eye).
-const MOST_ABOVE: usize = 200;
-
-/// Separators of cells, in the order in which they are tried.
-const SEPARATORS: [u8; 3] = [b',', b';', b'\t'];
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct HeadingRow {
-    /// The character between cells, an ASCII character.
-    pub(super) separator: u8,
-    /// Number of bytes of the text before the row.
-    pub(super) offset: usize,
-}
-
-impl HeadingRow {
-    /// Finds the headings of a table in `text`. If a cell of the first line is `sample`, it is this line.
-    /// Otherwise we take the row with the most wavelengths (of a file of recipes, the most cells) among
-    /// those with a column for names.
-    pub(super) fn of(text: &str, kind: TableKind) -> Option<Self> {
-        let mut best: Option<(usize, Self)> = None;
-        let mut offset = 0;
-        let mut is_first = true;
-        for line in text.split_inclusive(['\n', '\r']).take(2 * MOST_ABOVE) {
-            let at = offset;
-            offset += line.len();
-            if line.trim().is_empty() {
-                continue;
-            }
-            for separator in SEPARATORS {
-                let cells = cells(line, separator);
-                let found = Self { separator, offset: at };
-                if is_first && cells.iter().any(|cell| cell.eq_ignore_ascii_case("sample")) {
-                    return Some(found);
-                }
-                if let Some(score) = score(&cells, kind)
-                    && best.is_none_or(|(most, _)| score > most)
-                {
-                    best = Some((score, found));
-                }
-            }
-            is_first = false;
-        }
-        best.map(|(_, found)| found)
-    }
-
-    /// The first row that is not empty, with the separator that occurs most often in it.
-    pub(super) fn first(text: &str) -> Self {
-        let offset = text.len() - text.trim_start_matches(['\n', '\r', ' ']).len();
-        let line = text[offset..].lines().next().unwrap_or_default();
-        // We search the maximum from behind, to get the first of several.
-        let separators = SEPARATORS.into_iter().rev();
-        let separator = separators
-            .max_by_key(|separator| line.bytes().filter(|byte| byte == separator).count())
-            .unwrap_or(b',');
-        Self { separator, offset }
-    }
-}
-
-/// Score of a row: the number of its wavelengths, or of its cells in a file of recipes. The row of
-/// headings has the highest. `None` if it has no column for names, or only this column.
-fn score(cells: &[String], kind: TableKind) -> Option<usize> {
-    let names: Vec<&str> = cells.iter().map(String::as_str).collect();
-    let wavelengths = names.iter().filter(|cell| is_wavelength_heading(cell)).count();
-    match kind {
-        TableKind::Readings => {
-            name_column(&names, is_wavelength_heading)?;
-            (wavelengths > 1).then_some(wavelengths)
-        }
-        TableKind::Recipes => {
-            names.iter().find_map(|name| name_rank(name))?;
-            (names.len() > 1).then_some(names.len())
+        Some((_, index)) => Some(index),
+        None => {
+            let over_names = headings.iter().position(|heading| headings::is_wavelength(heading));
+            over_names
+                .filter(|index| others_are_wavelengths(*index))
+                .or((headings.first() == Some(&"") && others_are_wavelengths(0)).then_some(0))
         }
     }
-}
-
-/// The cells of a line, without empty ones at its end.
-fn cells(line: &str, separator: u8) -> Vec<String> {
-    let mut reader = csv::ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .trim(csv::Trim::All)
-        .delimiter(separator)
-        .from_reader(line.as_bytes());
-    let record = reader.records().next().and_then(Result::ok).unwrap_or_default();
-    let mut cells: Vec<String> = record.iter().map(plain_heading).collect();
-    while cells.last().is_some_and(String::is_empty) {
-        cells.pop();
-    }
-    cells
-}
-
-/// A heading, with a decimal point for a decimal comma: `400,5` becomes `400.5`.
-pub(super) fn plain_heading(heading: &str) -> String {
-    let pointed = heading.replace(',', ".");
-    if pointed.parse::<f64>().is_ok() { pointed } else { heading.to_owned() }
 }
 
 /// Coordinates of colour as tables of instruments write them. We recognise a coordinate only if the table
 /// has several of its row.
-const COORDINATES: [&[&str]; 6] = [
+const COORDINATES: [&[&str]; 7] = [
     &["L", "a", "b"],
     &["L", "C", "h"],
+    &["L", "c", "h"],
     &["L", "u", "v"],
     &["X", "Y", "Z"],
     &["x", "y", "Y"],
@@ -435,33 +539,29 @@ const COORDINATES: [&[&str]; 6] = [
 /// space.
 pub(super) fn is_coordinate(headings: &[String], index: usize) -> bool {
     let has = |name: &str| headings.iter().any(|heading| heading.trim() == name);
-    let own = headings[index].trim();
+    // Some programs number what occurs twice: L, a, b, L2, c, h.
+    let own = headings[index].trim().trim_end_matches(['2', '3', '.']);
     COORDINATES.iter().any(|set| {
         set.contains(&own) && has(set[0]) && set.iter().filter(|name| has(name)).count() > 1
     })
 }
 
-/// Cells of a row below the header, and the number of the row in the file, from 1.
-pub(super) struct CsvRow {
-    pub(super) number: u64,
-    pub(super) cells: csv::StringRecord,
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use spectra::headings::is_guessed_name;
 
     #[test]
     fn headers_of_wavelengths_are_read_in_every_spelling() {
         for header in
             ["400", "400nm", "400 nm", "R400", "SPEC_400", "nm400", "400.0", "400[nm]", "R400 nm"]
         {
-            assert_eq!(column(header, true), Some(Column::Wavelength(400.0)), "{header}");
+            assert_eq!(column(header, true), Column::Wavelength(400.0), "{header}");
         }
-        assert_eq!(column("381.2", true), Some(Column::Wavelength(381.2)));
-        assert_eq!(column("Red Ochre", true), Some(Column::Pigment("Red Ochre".into())));
-        assert_eq!(column("PB29", true), Some(Column::Pigment("PB29".into())));
-        assert_eq!(column("99999", true), None);
+        assert_eq!(column("381.2", true), Column::Wavelength(381.2));
+        assert_eq!(column("Red Ochre", true), Column::Pigment("Red Ochre".into()));
+        assert_eq!(column("PB29", true), Column::Pigment("PB29".into()));
+        assert_eq!(column("99999", true), Column::Outside(99999.0));
     }
 
     #[test]
@@ -543,31 +643,98 @@ mod tests {
         }
     }
 
-    fn heading_row(text: &str, kind: TableKind) -> Option<(char, usize)> {
-        HeadingRow::of(text, kind).map(|row| (char::from(row.separator), row.offset))
+    #[test]
+    fn headings_are_known_in_six_languages() {
+        let known = |headings: &[&str], wanted: Column| {
+            for heading in headings {
+                assert_eq!(column(heading, false), wanted, "{heading}");
+            }
+        };
+        known(&["film", "Schicht", "couche", "strato", "laag"], Column::Film);
+        known(&["Backing", "Untergrund", "fond", "Soporte", "Ondergrond"], Column::Backing);
+        known(&["thickness_mm", "Schichtdicke [mm]", "\u{c9}paisseur (mm)"], Column::Thickness);
+        known(&["Wiederholung", "R\u{e9}p\u{e9}tition"], Column::Replicate);
+        known(&["Geometry", "Winkel", "Dosis"], Column::Condition);
+        known(&["Wellenl\u{e4}nge", "Datum", "Probe", "Bemerkung"], Column::Ignored);
+        for heading in
+            ["Probe", "\u{c9}chantillon", "Echantillon", "Muestra", "campione", "Monster"]
+        {
+            assert_eq!(found(&["400", heading, "410"]), Some(1), "{heading}");
+        }
+        for heading in ["Wellenl\u{e4}nge [nm]", "Longueur d'onde", "golflengte"] {
+            assert_eq!(found(&[heading, "400", "410"]), Some(0), "{heading}");
+        }
+        let pigment = |name: &str| Column::Pigment(name.to_owned());
+        for (heading, name) in [
+            ("Titanwei\u{df}", "Titanwei\u{df}"),
+            ("Blanc de titane [%]", "Blanc de titane"),
+            ("Red (g)", "Red"),
+            ("Red (PR101)", "Red (PR101)"),
+        ] {
+            assert_eq!(column(heading, false), pigment(name), "{heading}");
+        }
     }
 
     #[test]
-    fn lines_above_the_headings_are_passed_over() {
-        assert_eq!(readings("sample,400\n"), Some((',', 0)));
-        assert_eq!(readings("My paints\n\nName;400;410\n"), Some((';', 11)));
-        assert_eq!(readings("sep=;\r\nName,Anna\r\nName;400,5;410,5\r\n"), Some((';', 18)));
-        assert_eq!(readings("Date\t1.1.26\nwavelength\t400\t410\nA\t1\t2\n"), Some(('\t', 12)));
-        assert_eq!(readings("Name,Anna\nwavelength,Red,Blue\n400,1,2\n"), None);
-        assert_eq!(readings("400,1\n410,2\n"), None);
-        assert_eq!(readings("Name,500\nwavelength,Red\n400,1\n"), None, "a name that is a number");
-    }
-
-    fn readings(text: &str) -> Option<(char, usize)> {
-        heading_row(text, TableKind::Readings)
+    fn colors_and_densities_are_no_pigments() {
+        for heading in [
+            "L*",
+            "L*(D65)",
+            "a* (D50/2)",
+            "LAB_L",
+            "CIE L",
+            "Lab b",
+            "sRGB R",
+            "RGB Red",
+            "Hex",
+            "dE00",
+            "Delta E",
+            "Density",
+            "Density C",
+            "Cyan density",
+            "Gloss60",
+            "CMYK K",
+        ] {
+            assert_eq!(column(heading, false), Column::Ignored, "{heading}");
+        }
+        for heading in
+            ["Red", "PB29", "Hunter Green", "Lab Red", "Glossy Black", "L", "DE Yellow", "C"]
+        {
+            assert_eq!(column(heading, false), Column::Pigment(heading.to_owned()), "{heading}");
+        }
+        let nix = "Name,L,a,b,L,c,h,Density,sRGB R,400,410";
+        let nix = columns_of(nix, TableKind::Readings).unwrap();
+        assert!(nix[1..9].iter().all(|column| *column == Column::Ignored), "{nix:?}");
+        let numbered = columns_of("Name,L,a,b,L2,c,h,400", TableKind::Readings).unwrap();
+        assert!(numbered[1..7].iter().all(|column| *column == Column::Ignored), "{numbered:?}");
     }
 
     #[test]
-    fn recipes_have_the_row_with_the_most_cells() {
-        assert_eq!(
-            heading_row("Name,Anna\nName,White,Red\nw,1,\n", TableKind::Recipes),
-            Some((',', 10))
-        );
-        assert_eq!(heading_row("White,Red\n1,2\n", TableKind::Recipes), None);
+    fn wavelengths_beyond_those_of_instruments_are_cut_and_other_numbers_are_pigments_if_named() {
+        let wide = "Name,190,195,200,205,2490,2500,2510,2520";
+        let wide = columns_of(wide, TableKind::Readings).unwrap();
+        assert_eq!(wide[1..3], [Column::Outside(190.0), Column::Outside(195.0)]);
+        assert_eq!(wide[7..], [Column::Outside(2510.0), Column::Outside(2520.0)]);
+        let error = columns_of("Name,08,12,400,410", TableKind::Readings).unwrap_err();
+        assert_eq!(error, "f, row 3, column `08` is not a wavelength from 200 to 2500 nm");
+        let spectra = columns_of("Name,08,12,400,410", TableKind::Spectra).unwrap();
+        assert_eq!(spectra[1..3], [Column::Ignored, Column::Ignored]);
+        let recipe = columns_of("Name,08,12", TableKind::Recipes).unwrap();
+        assert_eq!(recipe[1], Column::Pigment("08".into()));
+        let names: Vec<String> = ["Name", "08", "12", "400", "410"].map(str::to_owned).into();
+        let place = |index: usize| CellPlace::new("f", 3, &names[index]);
+        let listed = ["08".to_owned()];
+        let found = columns(&place, &names, TableKind::Readings, Some(&listed)).unwrap();
+        assert_eq!(found[1..3], [Column::Pigment("08".into()), Column::Ignored]);
+    }
+
+    #[test]
+    fn amounts_have_one_unit() {
+        let grams = columns_of("Name,Red (g),Blue [g],400", TableKind::Readings).unwrap();
+        assert_eq!(grams[2], Column::Pigment("Blue".into()));
+        let error = columns_of("Name,Red (g),Blue (mg),400", TableKind::Readings).unwrap_err();
+        assert!(error.contains("column `Blue (mg)`: the amount is in `mg`"), "{error}");
+        let twice = columns_of("Name,Red (g),Red [g],400", TableKind::Readings).unwrap_err();
+        assert!(twice.contains("occurs twice, as column number 2 and 3"), "{twice}");
     }
 }

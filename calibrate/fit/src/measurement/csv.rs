@@ -8,11 +8,16 @@ use std::path::{Path, PathBuf};
 use documents::file::is_standard_input;
 use spectra::Grid;
 use spectra::csv_table::{CsvTableError, RowNumbers};
+use spectra::instrument::is_long_table;
 
-use super::column::{Column, HeadingRow, TableKind};
+use super::column::{Column, TableKind};
+use super::conditions::{repeated, split_by_condition};
 use super::csv_rows::{CsvRows, RawRows};
 use super::error::MeasurementError;
-use super::table::{DarkReadings, MeasurementTable, Scale, ScaleChoice, grid_of, on_grid};
+use super::heading_row::HeadingRow;
+use super::scale::{DarkReadings, Scale, ScaleChoice};
+use super::scaled::ScaledReadings;
+use super::table::{MeasurementTable, grid_of, on_grid};
 
 impl MeasurementTable {
     /// Reads the measurement table in `bytes`, the content of `file`.
@@ -39,7 +44,9 @@ impl MeasurementTable {
         scale: ScaleChoice,
         pigments: Option<&[String]>,
     ) -> Result<Self, MeasurementError> {
-        Self::read(CsvRows::open(file, bytes, TableKind::Readings, pigments)?, scale)
+        let (table, has_replicates) =
+            Self::unfinished(file, bytes, TableKind::Readings, pigments, scale, true)?;
+        table.finished(has_replicates)
     }
 
     /// Reads only the spectra of the table. We ignore all other columns but the names, and the table has no
@@ -52,35 +59,59 @@ impl MeasurementTable {
         bytes: &[u8],
         scale: ScaleChoice,
     ) -> Result<Self, MeasurementError> {
-        let mut rows = CsvRows::open(file, bytes, TableKind::Readings, None)?;
-        rows.spectra_only = true;
-        Self::read(rows, scale)
+        let (table, has_replicates) =
+            Self::unfinished(file, bytes, TableKind::Spectra, None, scale, true)?;
+        table.finished(has_replicates)
     }
 
-    fn read(table: CsvRows, scale: ScaleChoice) -> Result<Self, MeasurementError> {
-        let spectra_only = table.spectra_only;
-        let mut readings = table.readings()?;
-        let (scale, dark) = table.scaled(&mut readings, scale)?;
-        let wavelengths = table.columns.iter().filter_map(|column| match column {
-            Column::Wavelength(nm) => Some(*nm),
-            _ => None,
-        });
-        let mut wavelengths: Vec<f64> = wavelengths.collect();
-        if wavelengths.is_sorted_by(|a, b| a > b) {
-            wavelengths.reverse();
-            readings.iter_mut().for_each(|reading| reading.reflectance.reverse());
-        }
-        let grid = grid_of(&wavelengths);
-        let resampled_from = Grid::through(&wavelengths).is_none().then_some(wavelengths.len());
+    /// Reads the rows of a table or of a part of it, and whether a column says which readings are repeated.
+    /// A part of a table does not leave out noise, because other parts would keep these wavelengths.
+    fn unfinished(
+        file: &str,
+        bytes: &[u8],
+        kind: TableKind,
+        pigments: Option<&[String]>,
+        scale: ScaleChoice,
+        is_whole: bool,
+    ) -> Result<(Self, bool), MeasurementError> {
+        let table = CsvRows::open(file, bytes, kind, pigments)?;
+        let found = table.readings()?;
+        let scaled = ScaledReadings::of(&table, found, scale, is_whole)?;
+        let ScaledReadings { scale, wavelengths_nm, mut readings, remarks: noise } = scaled;
+        let grid = grid_of(&wavelengths_nm);
+        let resampled_from =
+            Grid::through(&wavelengths_nm).is_none().then_some(wavelengths_nm.len());
         for reading in &mut readings {
             let values = std::mem::take(&mut reading.reflectance).into_vec();
-            reading.reflectance = on_grid(grid, &wavelengths, values).into();
+            reading.reflectance = on_grid(grid, &wavelengths_nm, values).into();
         }
-        let pigments = if spectra_only { Vec::new() } else { table.pigments() };
-        let mut remarks = if spectra_only { Vec::new() } else { table.remarks() };
+        let is_spectra = kind == TableKind::Spectra;
+        let pigments = if is_spectra { Vec::new() } else { table.pigments() };
+        let mut remarks = if is_spectra { Vec::new() } else { table.remarks() };
         remarks.extend(table.left_out.clone());
-        remarks.extend(dark);
-        Ok(Self { pigments, grid, resampled_from, scale, readings, remarks })
+        remarks.extend(noise);
+        let has_replicates = table.columns.contains(&Column::Replicate);
+        Ok((Self { pigments, grid, resampled_from, scale, readings, remarks }, has_replicates))
+    }
+
+    /// Tells apart the readings of one name that are no repeated readings, and says which are averaged.
+    fn finished(mut self, has_replicates: bool) -> Result<Self, MeasurementError> {
+        if let Some(split) = split_by_condition(&mut self.readings) {
+            if split.is_geometry && !self.pigments.is_empty() {
+                return Err(MeasurementError::SeveralGeometries {
+                    file: self.readings[0].file.to_string(),
+                    row: split.row,
+                    sample: split.sample,
+                    column: split.heading,
+                    count: split.count,
+                });
+            }
+            self.remarks.push(split.remark());
+        }
+        if !has_replicates {
+            self.remarks.extend(repeated(&self.readings));
+        }
+        Ok(self)
     }
 }
 
@@ -88,18 +119,20 @@ impl MeasurementTable {
 /// column of samples and wavelengths, or the first line a column `sample`.
 #[must_use]
 pub fn is_measurement_csv(text: &str) -> bool {
-    HeadingRow::of(text, TableKind::Readings).is_some() || RawRows::turned(text).is_some()
+    !is_long_table(text)
+        && (HeadingRow::of(text, TableKind::Readings).is_some() || RawRows::turned(text).is_some())
 }
 
 /// Whether the first line of a text names a column `sample`, which no instrument's file does.
 #[must_use]
 pub fn begins_with_samples(text: &str) -> bool {
     let first = text.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
-    [',', ';', '\t'].into_iter().any(|separator| {
+    let is_named = [',', ';', '\t'].into_iter().any(|separator| {
         first
             .split(separator)
             .any(|cell: &str| cell.trim().trim_matches('"').trim().eq_ignore_ascii_case("sample"))
-    })
+    });
+    is_named && !is_long_table(text)
 }
 
 /// A piece has about this many bytes.
@@ -178,9 +211,9 @@ impl LargeCsv {
                 // A piece may hold the black patches of a whole file.
                 Err(MeasurementError::MixedScale { .. }) => {
                     let percent = ScaleChoice::Known(Scale::Percent);
-                    self.part(bytes, LargeCsvChoice { scale: percent, ..choice })?
+                    self.part(bytes, LargeCsvChoice { scale: percent, ..choice })?.0
                 }
-                part => part?,
+                part => part?.0,
             };
             if part.scale == Scale::Percent {
                 scale = Scale::Percent;
@@ -224,8 +257,10 @@ impl LargeCsv {
     ) -> Result<MeasurementTable, LargeCsvError> {
         let mut whole: Option<MeasurementTable> = None;
         let mut dark = DarkReadings::default();
+        let mut has_replicates = false;
         self.each_piece(|bytes| {
-            let mut part = self.part(bytes, known)?;
+            let (mut part, of_part) = self.part(bytes, known)?;
+            has_replicates |= of_part;
             if unit_is_found && part.scale == Scale::Percent {
                 for r in &part.readings {
                     dark.add(r.row, &r.sample, 100.0 * largest(&r.reflectance));
@@ -239,7 +274,7 @@ impl LargeCsv {
         })?;
         let mut whole = whole.ok_or_else(|| MeasurementError::Empty(self.file.clone()))?;
         whole.remarks.extend(dark.checked(&self.file)?);
-        Ok(whole)
+        Ok(whole.finished(has_replicates)?)
     }
 
     /// Whether a cell of the column holds a number in any piece.
@@ -263,11 +298,10 @@ impl LargeCsv {
         &self,
         bytes: &[u8],
         choice: LargeCsvChoice<'_>,
-    ) -> Result<MeasurementTable, MeasurementError> {
-        if choice.spectra_only {
-            return MeasurementTable::spectra_from_csv(&self.file, bytes, choice.scale);
-        }
-        MeasurementTable::from_csv_with(&self.file, bytes, choice.scale, choice.pigments)
+    ) -> Result<(MeasurementTable, bool), MeasurementError> {
+        let kind = if choice.spectra_only { TableKind::Spectra } else { TableKind::Readings };
+        let LargeCsvChoice { pigments, scale, .. } = choice;
+        MeasurementTable::unfinished(&self.file, bytes, kind, pigments, scale, false)
     }
 
     /// Calls `read` with one piece of the file after another. Each piece is the header followed by whole

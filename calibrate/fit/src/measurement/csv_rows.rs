@@ -3,21 +3,21 @@
 //! A table may also have a column for each sample. We also find here the columns that look like pigments
 //! but hold no amounts.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use spectra::csv_table::{CellPlace, CsvTableError, RowNumbers};
-use spectra::instrument::FileText;
+use documents::name_list;
+use spectra::csv_table::{CellPlace, CsvTableError, RowNumbers, wavelength_of_header};
+use spectra::headings::{is_guessed_name, is_wavelength, name_rank};
+use spectra::instrument::{FileText, deviations};
 
 use super::column::{
-    Column, CsvRow, HeadingRow, TableKind, columns, excludes_specular, filled_column,
-    is_guessed_name, is_wavelength_heading, name_rank, plain_heading,
+    Column, TableKind, columns, excludes_specular, is_known, is_wavelength_heading,
 };
 use super::error::MeasurementError;
-use super::table::{DarkReadings, Film, Reading, Scale, ScaleChoice};
-
-/// No reflectance is greater than this fraction. If you see a greater value, its unit is wrong.
-const LARGEST_REFLECTANCE: f64 = 2.0;
+use super::heading_row::{CsvRow, HeadingRow, filled_column, plain_heading};
+use super::scale::outside_remark;
+use super::table::{Conditions, Film, Reading};
 
 /// The finite number in a cell. With decimal commas, a cell with a point gives `None`, because the point
 /// may separate thousands.
@@ -28,6 +28,16 @@ fn parsed(cell: &str, decimal_comma: bool) -> Option<f64> {
         false => cell.parse::<f64>().ok(),
     };
     value.filter(|value| value.is_finite())
+}
+
+/// Number and unit of a cell such as `5 %` or `2.07g`. The unit is empty if there is none.
+fn quantity(cell: &str, decimal_comma: bool) -> Option<(f64, &str)> {
+    let end = cell.trim_end_matches(|c: char| c.is_alphabetic() || c == '%' || c == '.');
+    let (number, unit) = cell.split_at(end.len());
+    let known = ["", "%", "g", "mg", "kg", "ml", "g.", "parts", "part", "drops"];
+    let is_known = known.contains(&unit.to_lowercase().as_str());
+    let value = parsed(cell, decimal_comma).map(|value| (value, ""));
+    value.or_else(|| Some((parsed(number.trim_end(), decimal_comma).filter(|_| is_known)?, unit)))
 }
 
 /// The copy of `name` in `known`. If there is none, we add it.
@@ -57,20 +67,23 @@ fn take_filled_names(headers: &[String], columns: &mut [Column], rows: &[CsvRow]
     }
 }
 
-/// Whether commas in the cells of numbers are decimal signs. If commas separate the cells as well, we
+/// Whether commas in the cells of numbers are decimal signs. If points occur too, the more frequent sign
+/// decides, so that an error names a cell with the other. If commas separate the cells as well, we
 /// take commas in quoted readings for decimal signs, because a reflectance needs no separator of
 /// thousands. Only an amount may have one.
 fn has_decimal_commas(separator: u8, columns: &[Column], rows: &[CsvRow]) -> bool {
-    rows.iter().any(|row: &CsvRow| {
-        row.cells.iter().zip(columns).any(|(cell, column)| {
-            let decides = match column {
-                Column::Wavelength(_) => true,
-                Column::Pigment(_) | Column::Thickness => separator != b',',
-                _ => false,
-            };
-            decides && cell.contains(',')
-        })
-    })
+    let [mut commas, mut points] = [0_usize; 2];
+    for (cell, column) in rows.iter().flat_map(|row| row.cells.iter().zip(columns)) {
+        let decides = match column {
+            Column::Wavelength(_) => true,
+            Column::Pigment(_) | Column::Thickness => separator != b',',
+            _ => false,
+        };
+        let is_number = decides && !cell.contains(char::is_alphabetic);
+        commas += usize::from(is_number && cell.contains(','));
+        points += usize::from(is_number && cell.contains('.'));
+    }
+    commas > 0 && commas >= points
 }
 
 /// We refuse a larger amount of a pigment, because sums would lose their small terms to rounding.
@@ -90,7 +103,10 @@ pub(super) struct CsvRows {
     decimal_comma: bool,
     /// Whether the rows come from a sheet of a workbook.
     is_sheet: bool,
-    pub(super) spectra_only: bool,
+    /// Whether readings are written as `45.2%`.
+    pub(super) has_percent_cells: bool,
+    /// Unit of the amounts if their cells have one, e.g. `%`.
+    amount_unit: String,
     /// Messages about readings that we leave out, e.g. of other sheets, or without the specular component.
     pub(super) left_out: Vec<String>,
 }
@@ -117,7 +133,7 @@ impl CsvRows {
         if text.trim().is_empty() {
             return Err(MeasurementError::Empty(file.to_owned()));
         }
-        let RawRows { separator, heading_row, headings: headers, rows, heading_rows } =
+        let RawRows { separator, heading_row, headings: headers, mut rows, heading_rows } =
             RawRows::of(text, kind);
         let place = |index: usize| {
             let row = heading_rows.as_ref().map_or(heading_row, |rows| rows[index]);
@@ -132,11 +148,17 @@ impl CsvRows {
         take_filled_names(&headers, &mut columns, &rows);
         let decimal_comma = has_decimal_commas(separator, &columns, &rows);
         if pigments.is_none() {
-            for place in without_amounts(&columns, &rows, |cell: &str| parsed(cell, decimal_comma))
-            {
+            let amount = |cell: &str| quantity(cell, decimal_comma).map(|(number, _)| number);
+            for place in without_amounts(&columns, &rows, amount) {
                 columns[place] = Column::Ignored;
             }
         }
+        let has_percent_cells = rows.iter().any(|row| {
+            let mut readings = row.cells.iter().zip(&columns);
+            readings.any(|(c, column)| matches!(column, Column::Wavelength(_)) && c.ends_with('%'))
+        });
+        let amount_unit = amount_unit(&columns, &rows, decimal_comma);
+        let deviations = take_out_deviations(&columns, &mut rows);
         let excluded = headers
             .iter()
             .zip(&columns)
@@ -148,7 +170,9 @@ impl CsvRows {
         let named_by = named_by.map(|at| &headers[at]).filter(|heading| is_guessed_name(heading));
         let named_by =
             named_by.map(|heading| format!("{file}: samples are named by the column `{heading}`"));
-        let left_out = content.remark.into_iter().chain(excluded).chain(named_by);
+        let cut = outside(&columns).map(|cut| format!("{file}: {cut}"));
+        let left_out =
+            content.remark.into_iter().chain(excluded).chain(named_by).chain(cut).chain(deviations);
         let file = file.into();
         Ok(Self {
             file,
@@ -159,7 +183,8 @@ impl CsvRows {
             rows,
             decimal_comma,
             is_sheet: content.is_sheet,
-            spectra_only: false,
+            has_percent_cells,
+            amount_unit,
             left_out: left_out.collect(),
         })
     }
@@ -171,7 +196,7 @@ impl CsvRows {
 
     /// The cell of `row` below the header `index`, from 0. If the table has a column for each sample, this
     /// is in the column of the sample.
-    fn place(&self, row: &CsvRow, index: usize) -> CellPlace {
+    pub(super) fn place(&self, row: &CsvRow, index: usize) -> CellPlace {
         match &self.heading_rows {
             Some(rows) => {
                 let sample = row.cells.get(0).unwrap_or_default();
@@ -213,16 +238,15 @@ impl CsvRows {
     }
 
     pub(super) fn readings(&self) -> Result<Vec<Reading>, MeasurementError> {
-        let mut backings = BTreeSet::new();
-        self.rows.iter().map(|row| self.reading(row, &mut backings)).collect()
+        let mut known = SharedTexts::default();
+        self.rows.iter().map(|row| self.reading(row, &mut known)).collect()
     }
 
-    /// The reading of a row. `backings` holds the names of backings in the rows before, so that readings
-    /// share them in memory.
+    /// The reading of a row. `known` holds backings and conditions of the rows before.
     fn reading(
         &self,
         csv_row: &CsvRow,
-        backings: &mut BTreeSet<Arc<str>>,
+        known: &mut SharedTexts,
     ) -> Result<Reading, MeasurementError> {
         let row = csv_row.number;
         let record = &csv_row.cells;
@@ -240,8 +264,9 @@ impl CsvRows {
             row,
             sample: String::new(),
             film: Film::Paint,
-            backing: shared("", backings),
+            backing: shared("", &mut known.backings),
             thickness_mm: None,
+            conditions: known.conditions(&self.headers, &self.columns, record),
             amounts: Box::default(),
             reflectance: Box::default(),
         };
@@ -266,7 +291,7 @@ impl CsvRows {
                 Column::Film => {
                     reading.film = Film::named(cell).ok_or_else(|| wrong("`paint` or `none`"))?;
                 }
-                Column::Backing => reading.backing = shared(cell, backings),
+                Column::Backing => reading.backing = shared(cell, &mut known.backings),
                 Column::Thickness if cell.is_empty() => {}
                 Column::Thickness => {
                     let thickness = number("a thickness in mm")?;
@@ -275,63 +300,117 @@ impl CsvRows {
                     }
                     reading.thickness_mm = Some(thickness);
                 }
-                Column::Replicate | Column::Ignored | Column::Reading => {}
-                Column::Pigment(_) if self.spectra_only => {}
+                Column::Replicate
+                | Column::Ignored
+                | Column::Condition
+                | Column::Outside(_)
+                | Column::Reading => {}
                 Column::Pigment(_) if cell.is_empty() => amounts.push(0.0),
                 Column::Pigment(_) => {
-                    let amount = number("an amount of pigment")?;
+                    let amount = quantity(cell, self.decimal_comma);
+                    let (amount, unit) = amount.ok_or_else(|| wrong("an amount of pigment"))?;
+                    if unit != self.amount_unit && amount != 0.0 {
+                        return Err(wrong("an amount in the unit of the other cells"));
+                    }
                     if !(0.0..=LARGEST_AMOUNT).contains(&amount) {
                         return Err(wrong("an amount from 0 to 1e12"));
                     }
                     amounts.push(amount);
+                }
+                Column::Wavelength(_) if self.has_percent_cells => {
+                    let percent = cell.strip_suffix('%').map(str::trim_end);
+                    let value = percent.and_then(|number| parsed(number, self.decimal_comma));
+                    reflectance.push(value.ok_or_else(|| wrong("a reflectance with its `%`"))?);
                 }
                 Column::Wavelength(_) => reflectance.push(number("a reflectance")?),
             }
         }
         Ok(Reading { amounts: amounts.into(), reflectance: reflectance.into(), ..reading })
     }
+}
 
-    /// Converts the readings to fractions, and returns the unit that they had, with a remark on dark ones.
-    pub(super) fn scaled(
-        &self,
-        readings: &mut [Reading],
-        choice: ScaleChoice,
-    ) -> Result<(Scale, Option<String>), MeasurementError> {
-        let mut remark = None;
-        let scale = match choice {
-            ScaleChoice::Known(scale) => scale,
-            ScaleChoice::ByFile => {
-                let scale = Scale::of_largest(readings.iter().map(largest).fold(0.0, f64::max));
-                if scale == Scale::Percent {
-                    let mut dark = DarkReadings::default();
-                    readings.iter().for_each(|r| dark.add(r.row, &r.sample, largest(r)));
-                    remark = dark.checked(&self.file)?;
-                }
-                scale
-            }
-        };
-        let indices: Vec<usize> = (0..self.columns.len())
-            .filter(|&index| matches!(self.columns[index], Column::Wavelength(_)))
+/// Texts that many readings share in memory.
+#[derive(Default)]
+struct SharedTexts {
+    backings: BTreeSet<Arc<str>>,
+    texts: BTreeSet<Arc<str>>,
+    conditions: BTreeSet<Conditions>,
+}
+
+impl SharedTexts {
+    fn conditions(
+        &mut self,
+        headers: &[String],
+        columns: &[Column],
+        cells: &csv::StringRecord,
+    ) -> Conditions {
+        let of_row = headers.iter().zip(columns).zip(cells);
+        let of_row = of_row.filter(|((_, column), _)| **column == Column::Condition);
+        let pairs: Vec<(Arc<str>, Arc<str>)> = of_row
+            .map(|((heading, _), cell)| {
+                (shared(heading, &mut self.texts), shared(cell, &mut self.texts))
+            })
             .collect();
-        for (reading, row) in readings.iter_mut().zip(&self.rows) {
-            for (value, &index) in reading.reflectance.iter_mut().zip(&indices) {
-                let fraction = *value * scale.to_fraction();
-                if !(0.0..=LARGEST_REFLECTANCE).contains(&fraction) {
-                    return Err(MeasurementError::Reflectance {
-                        place: self.place(row, index),
-                        range: scale.range(),
-                        value: *value,
-                    });
-                }
-                *value = fraction;
-            }
+        let new: Conditions = pairs.into();
+        if let Some(known) = self.conditions.get(&new) {
+            return Arc::clone(known);
         }
-        Ok((scale, remark))
+        self.conditions.insert(Arc::clone(&new));
+        new
     }
 }
 
-fn largest(reading: &Reading) -> f64 {
-    reading.reflectance.iter().copied().fold(0.0, f64::max)
+/// The unit that most amounts have in their cells.
+fn amount_unit(columns: &[Column], rows: &[CsvRow], decimal_comma: bool) -> String {
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for (cell, column) in rows.iter().flat_map(|row| row.cells.iter().zip(columns)) {
+        if matches!(column, Column::Pigment(_))
+            && let Some((amount, unit)) = quantity(cell, decimal_comma)
+            && amount != 0.0
+        {
+            *counts.entry(unit).or_default() += 1;
+        }
+    }
+    let most = counts.into_iter().max_by_key(|(_, count)| *count);
+    most.map_or_else(String::new, |(unit, _)| unit.to_owned())
+}
+
+/// A remark on the wavelengths at which no colour instrument measures.
+fn outside(columns: &[Column]) -> Option<String> {
+    let nm = columns.iter().filter_map(|column| match column {
+        Column::Outside(nm) => Some(*nm),
+        _ => None,
+    });
+    outside_remark(nm)
+}
+
+/// Takes out the rows that hold deviations of others, and returns a remark.
+fn take_out_deviations(columns: &[Column], rows: &mut Vec<CsvRow>) -> Option<String> {
+    let sample = columns.iter().position(|column| *column == Column::Sample)?;
+    let cells = |place: usize| rows.iter().map(move |row| row.cells.get(place).unwrap_or_default());
+    let mut are_deviations = deviations(&cells(sample).collect::<Vec<&str>>());
+    // A column of `mean` and `std` beside the names.
+    let notes =
+        (0..columns.len()).filter(|at| matches!(columns[*at], Column::Ignored | Column::Condition));
+    for place in notes {
+        let of_column = deviations(&cells(place).collect::<Vec<&str>>());
+        are_deviations.iter_mut().zip(of_column).for_each(|(known, own)| *known |= own);
+    }
+    let count = are_deviations.iter().filter(|is| **is).count();
+    if count == 0 || count == rows.len() {
+        return None;
+    }
+    let numbers: Vec<String> = rows
+        .iter()
+        .zip(&are_deviations)
+        .filter(|(_, is)| **is)
+        .map(|(row, _)| row.number.to_string())
+        .collect();
+    let mut are_deviations = are_deviations.into_iter();
+    rows.retain(|_| !are_deviations.next().unwrap_or(false));
+    let row = if count == 1 { "row" } else { "rows" };
+    let hold = if count == 1 { "holds deviations and is" } else { "hold deviations and are" };
+    Some(format!("{row} {} {hold} left out", name_list(&numbers, 6, ", ")))
 }
 
 /// Headings and rows of a table, before their meaning is known.
@@ -348,7 +427,7 @@ pub(super) struct RawRows {
 impl RawRows {
     /// The table in `text`. If no row looks like headings, we take the first.
     pub(super) fn of(text: &str, kind: TableKind) -> Self {
-        if let Some(turned) = Self::turned(text).filter(|_| kind == TableKind::Readings) {
+        if let Some(turned) = Self::turned(text).filter(|_| kind != TableKind::Recipes) {
             return turned;
         }
         let heading = HeadingRow::of(text, kind).unwrap_or_else(|| HeadingRow::first(text));
@@ -388,15 +467,20 @@ impl RawRows {
         let line = text[first.offset..].lines().next().unwrap_or_default();
         let mut cells =
             line.split(char::from(first.separator)).map(|cell| cell.trim_matches(['"', ' ']));
-        name_rank(cells.next()?)?;
+        let over_labels = cells.next()?;
+        if name_rank(over_labels).is_none() && !is_wavelength(over_labels) {
+            return None;
+        }
         if cells.any(is_wavelength_heading) {
             return None;
         }
         let Self { separator, heading_row, headings: names, rows, .. } = Self::below(text, first);
         let wavelengths = rows.iter().filter(|row| is_wavelength_heading(&label(row))).count();
+        let others = rows.iter().filter(|row| !is_number(&label(row)));
         if names.len() < 2
             || wavelengths < 2
-            || wavelengths == rows.len()
+            || others.clone().count() == 0
+            || !others.clone().all(says_what_it_is)
             || !rows.iter().all(|row: &CsvRow| {
                 let surplus = row.cells.iter().skip(names.len());
                 !label(row).is_empty() && surplus.into_iter().all(str::is_empty)
@@ -420,6 +504,20 @@ impl RawRows {
                 .collect(),
         })
     }
+}
+
+/// Whether a heading is a wavelength of any size.
+fn is_number(heading: &str) -> bool {
+    wavelength_of_header(&heading.to_ascii_lowercase()).is_some()
+}
+
+/// Whether a row of a table with a column for each sample holds films, backings and the like, or amounts.
+/// Programs also write rows of text about the measurement.
+fn says_what_it_is(row: &CsvRow) -> bool {
+    let is_amount = |cell: &str| {
+        cell.is_empty() || quantity(cell, true).or_else(|| quantity(cell, false)).is_some()
+    };
+    is_known(&label(row)) || row.cells.iter().skip(1).all(is_amount)
 }
 
 fn label(row: &CsvRow) -> String {
@@ -486,7 +584,8 @@ fn cell(row: &CsvRow, place: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::table::{MeasurementTable, ScaleChoice};
+    use super::super::scale::ScaleChoice;
+    use super::super::table::MeasurementTable;
     use super::*;
 
     #[test]

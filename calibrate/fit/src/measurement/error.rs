@@ -69,16 +69,21 @@ pub enum MeasurementError {
     },
     /// A header is a number outside the wavelengths at which paint is measured.
     #[error("{0} is not a wavelength from 200 to 2500 nm")]
-    #[hint("a pigment's name must not be a number")]
+    #[hint(
+        "if it is a pigment, name it: [pigments={}], once for each pigment; a file of recipes may have such a column too",
+        _0.column
+    )]
     WavelengthRange(CellPlace),
     /// A reading is negative or far above white.
-    #[error("{place}: expected a reflectance {range}, found `{value}`")]
+    #[error("{place}: expected a reflectance {range} of {sample}, found `{value}`")]
     #[hint(
         "set [percent] or [fraction] if the unit was recognised wrongly; a dark reading below 0 means that the instrument's zero is off"
     )]
     Reflectance {
         /// File and row. The column is the wavelength.
         place: CellPlace,
+        /// Name of the sample.
+        sample: String,
         /// Allowed range in the file's unit.
         range: &'static str,
         /// Value that was read, in the file's unit.
@@ -86,7 +91,7 @@ pub enum MeasurementError {
     },
     /// Most readings of a spectrum are negative or far above white.
     #[error(
-        "{file}, line {line}: readings of {sample} must be {range}, most of its {count} are not, found `{bad}`"
+        "{file}, line {line}: readings of {sample} must be {range}, and {bad} of its {count} are not"
     )]
     #[hint(
         "the file may hold a detector's counts ([white_reading=FILE] [dark_reading=FILE]), or another unit ([percent], [fraction])"
@@ -104,6 +109,34 @@ pub enum MeasurementError {
         count: usize,
         /// Number of readings that are out of range.
         bad: usize,
+    },
+    /// Two columns of amounts have different units.
+    #[error("{place}: the amount is in `{unit}`, and that of `{first}` is not")]
+    #[hint("write all amounts in one unit")]
+    MixedAmounts {
+        /// File, row and column.
+        place: CellPlace,
+        /// Unit of the column.
+        unit: String,
+        /// Heading of the first column of amounts with another unit.
+        first: String,
+    },
+    /// Readings of one sample were taken under several geometries.
+    #[error(
+        "{file}, row {row}: {sample} is read under {count} geometries (column `{column}`); a calibration takes one"
+    )]
+    #[hint("keep the rows of one geometry, such as 45as45 or 45:0")]
+    SeveralGeometries {
+        /// File name as the caller gave it.
+        file: String,
+        /// Row in the file.
+        row: u64,
+        /// Name of the sample.
+        sample: String,
+        /// Heading of the column.
+        column: String,
+        /// Number of geometries.
+        count: usize,
     },
     /// A reading looks like a fraction in a file of percent.
     #[error(
@@ -351,7 +384,10 @@ fn sheet_hint(error: &CsvTableError) -> Option<Hint> {
             "numbers take a decimal point; a decimal comma splits a cell in two"
         }
         CsvTableError::RowLength { .. } => "the row may be cut off; write empty cells as `,,`",
-        CsvTableError::Cell { text, .. } if text.contains(',') => {
+        CsvTableError::Cell { wanted: "an amount in the unit of the other cells", .. } => {
+            "write all amounts in one unit, e.g. all as `5 %` or all as `5`"
+        }
+        CsvTableError::Cell { text, .. } if is_number_with(text, [',', '.']) => {
             "numbers have a decimal point, or a decimal comma in every reading of the file"
         }
         CsvTableError::Cell { wanted: "a reflectance", text, .. } if text.is_empty() => {
@@ -362,6 +398,12 @@ fn sheet_hint(error: &CsvTableError) -> Option<Hint> {
         }
         CsvTableError::Cell { .. } => return None,
     }))
+}
+
+/// Whether `text` has digits around one of the signs.
+fn is_number_with(text: &str, signs: [char; 2]) -> bool {
+    let is_digits = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
+    text.contains(',') || text.split_once(signs).is_some_and(|(a, b)| is_digits(a) && is_digits(b))
 }
 
 fn no_bare_reading(backing: &str) -> String {

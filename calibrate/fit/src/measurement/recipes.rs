@@ -100,6 +100,8 @@ impl Recipes {
         }
         let by_name: BTreeMap<&str, &Reading> =
             self.rows.iter().map(|(name, row)| (name.as_str(), row)).collect();
+        let mut table = table;
+        table.name_by_file(|name| by_name.contains_key(name));
         let known: Vec<String> = distinct(table.readings.iter().map(|r| r.sample.as_str()));
         let (matched, unmatched): (Vec<&str>, Vec<&str>) =
             known.iter().map(String::as_str).partition(|name| by_name.contains_key(name));

@@ -1,31 +1,18 @@
 //! Spectra of an instrument's file as readings of paint.
 
 use std::collections::BTreeMap;
-use std::ops::RangeInclusive;
 
 use spectra::Grid;
 use spectra::instrument::{MeasuredQuantity, MeasuredSpectrum, Role, Unit};
 
-use super::column::MEASURABLE_NM;
 use super::error::MeasurementError;
-use super::table::{
-    DarkReadings, Film, MeasurementTable, Reading, Scale, ScaleChoice, grid_of, on_grid,
+use super::scale::{
+    DarkReadings, MEASURABLE_NM, SOUND, Scale, ScaleChoice, is_reflectance, just_below_zero,
+    left_out, may_be_left_out, outside_remark, without_ends,
 };
+use super::table::{Film, MeasurementTable, Reading, grid_of, on_grid};
 use spectra::csv_table::CellPlace;
 
-/// A table of readings may have these wavelengths in nm.
-const BAND: RangeInclusive<f64> = MEASURABLE_NM;
-
-/// A reading must be valid at these wavelengths in nm, because they determine nearly all of the colour.
-/// Beyond them lamps and detectors are weak, and exported files hold noise.
-const SOUND: RangeInclusive<f64> = 400.0..=700.0;
-
-/// We read a value above minus this fraction as 0 with noise. It comes from dark paint under little light,
-/// or from a dark reading a little too high. We chose it by eye.
-const NOISE_BELOW_ZERO: f64 = 0.02;
-
-/// No surface has a greater reflectance, as a fraction. If you see a greater reading, its unit is wrong.
-const LARGEST_REFLECTANCE: f64 = 2.0;
 /// Treatment of an instrument's spectra.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct RecordChoice {
@@ -42,8 +29,9 @@ impl MeasurementTable {
     /// are repeated readings. The table has no pigments and no backings.
     ///
     /// We cut off wavelengths outside 200 to 2500 nm. Outside 400 to 700 nm we cut off the ends of a
-    /// spectrum up to their last impossible value. Values down to -2 % count as 0, with a remark. We refuse
-    /// a spectrum if most of its values are impossible, or one from 400 to 700 nm is. If spectra have
+    /// spectrum up to their last impossible value. Values down to -2 % count as 0, with a remark. We leave out
+    /// a spectrum with a noisy point from 400 to 700 nm, with a remark, if they are few. We refuse the file if
+    /// most values of a spectrum are impossible. If spectra have
     /// different wavelengths, we interpolate them to the grid of the coarsest, where all overlap.
     ///
     /// # Errors
@@ -55,14 +43,16 @@ impl MeasurementTable {
     ) -> Result<Self, MeasurementError> {
         let mut remarks = Vec::new();
         let mut spectra = reflectances(file, records, choice, &mut remarks)?;
+        let all_nm = spectra.iter().flat_map(|spectrum| spectrum.wavelengths_nm.iter().copied());
+        remarks.extend(outside_remark(all_nm));
         for spectrum in &mut spectra {
             spectrum.cut_to_band(file)?;
         }
         let (scale, dark) = scale(file, &mut spectra, choice.scale)?;
         remarks.extend(dark);
-        for spectrum in &mut spectra {
-            spectrum.cut_noise(file, &mut remarks)?;
-        }
+        let noisy = spectra.iter_mut().map(|spectrum| spectrum.cut_noise(file, &mut remarks));
+        let noisy: Vec<Option<NoisyPoint>> = noisy.collect::<Result<_, _>>()?;
+        leave_out_noisy(file, &mut spectra, noisy, &mut remarks)?;
         let first = &spectra[0];
         let alike = spectra.iter().all(|s| s.wavelengths_nm == first.wavelengths_nm);
         let (grid, count) = if alike {
@@ -81,6 +71,7 @@ impl MeasurementTable {
             film: Film::Paint,
             backing: "".into(),
             thickness_mm: None,
+            conditions: [].into(),
             amounts: Box::default(),
             reflectance: on_grid(grid, &spectrum.wavelengths_nm, spectrum.values).into(),
         });
@@ -220,8 +211,8 @@ impl Spectrum<'_> {
     }
 
     fn cut_to_band(&mut self, file: &str) -> Result<(), MeasurementError> {
-        let start = *BAND.start();
-        let end = *BAND.end();
+        let start = *MEASURABLE_NM.start();
+        let end = *MEASURABLE_NM.end();
         let from = self.wavelengths_nm.partition_point(|nm| *nm < start);
         let to = self.wavelengths_nm.partition_point(|nm| *nm <= end);
         if from >= to {
@@ -243,61 +234,94 @@ impl Spectrum<'_> {
     }
 
     /// Converts the values to fractions. Outside the band in which readings must be valid, we cut off the
-    /// ends up to their last impossible value.
-    fn cut_noise(&mut self, file: &str, remarks: &mut Vec<String>) -> Result<(), MeasurementError> {
+    /// ends up to their last impossible value. Returns the point within it that is impossible, if any, with
+    /// its value in the unit of the file.
+    fn cut_noise(
+        &mut self,
+        file: &str,
+        remarks: &mut Vec<String>,
+    ) -> Result<Option<NoisyPoint>, MeasurementError> {
         let factor = self.scale.to_fraction();
-        let is_valid =
-            |value: f64| (-NOISE_BELOW_ZERO..=LARGEST_REFLECTANCE).contains(&(value * factor));
-        let bad = self.values.iter().filter(|value| !is_valid(**value)).count();
-        if 2 * bad > self.values.len() {
+        let invalid = self.values.iter().enumerate();
+        let invalid = invalid.filter(|(_, value)| !is_reflectance(**value * factor));
+        let invalid: Vec<usize> = invalid.map(|(index, _)| index).collect();
+        if 2 * invalid.len() > self.values.len() {
             return Err(MeasurementError::Noise {
                 file: file.to_owned(),
                 line: self.record.line as u64,
                 sample: name(&self.record.name),
                 range: self.scale.range(),
                 count: self.values.len(),
-                bad,
+                bad: invalid.len(),
             });
         }
-        let mut from = 0;
-        let mut to = self.values.len();
-        let has_middle = self.wavelengths_nm.iter().any(|nm| SOUND.contains(nm));
-        for (index, (&nm, &value)) in self.wavelengths_nm.iter().zip(&self.values).enumerate() {
-            if is_valid(value) {
-                continue;
-            } else if has_middle && nm < *SOUND.start() {
-                from = index + 1;
-            } else if has_middle && nm > *SOUND.end() {
-                to = to.min(index);
-            } else {
-                let row = self.record.line as u64;
-                return Err(MeasurementError::Reflectance {
-                    place: CellPlace::new(file, row, &format!("{nm} nm")),
-                    range: self.scale.range(),
-                    value,
-                });
-            }
+        let (sound, inside) = without_ends(&self.wavelengths_nm, invalid.iter().copied());
+        if let Some(&first) = inside.first() {
+            let nm = self.wavelengths_nm[first];
+            let values = inside.iter().map(|&index| self.values[index] * factor).collect();
+            return Ok(Some(NoisyPoint {
+                row: self.record.line_at(nm) as u64,
+                nm,
+                value: self.values[first],
+                fractions: values,
+            }));
         }
-        if bad > 0 {
+        if !invalid.is_empty() {
             remarks.push(format!(
                 "{}: cut to {} to {} nm; beyond, readings are not {}",
                 name(&self.record.name),
-                tenths(self.wavelengths_nm[from]),
-                tenths(self.wavelengths_nm[to - 1]),
+                tenths(self.wavelengths_nm[sound.start]),
+                tenths(self.wavelengths_nm[sound.end - 1]),
                 self.scale.range(),
             ));
         }
-        self.keep(from, to);
+        self.keep(sound.start, sound.end);
         let below = self.values.iter().filter(|value| **value < 0.0).count();
         if below > 0 {
-            let name = name(&self.record.name);
-            let one = "reading just below zero counts";
-            let many = "readings just below zero count";
-            remarks.push(format!("{name}: {} as 0", documents::counted_as(below, one, many)));
+            remarks.push(just_below_zero(&name(&self.record.name), below));
         }
         self.values.iter_mut().for_each(|value| *value = (*value * factor).max(0.0));
-        Ok(())
+        Ok(None)
     }
+}
+
+/// The first impossible value of a spectrum where readings must be valid.
+struct NoisyPoint {
+    row: u64,
+    nm: f64,
+    /// In the unit of the file.
+    value: f64,
+    /// All such values as fractions.
+    fractions: Vec<f64>,
+}
+
+/// Leaves out the readings with a noisy point, with a remark on each. If they are too many or too far off,
+/// this fails.
+fn leave_out_noisy(
+    file: &str,
+    spectra: &mut Vec<Spectrum<'_>>,
+    noisy: Vec<Option<NoisyPoint>>,
+    remarks: &mut Vec<String>,
+) -> Result<(), MeasurementError> {
+    let points = || noisy.iter().flatten();
+    let values = points().flat_map(|point| point.fractions.iter().copied());
+    let is_fine = may_be_left_out(noisy.len(), points().count(), values);
+    for (spectrum, point) in spectra.iter().zip(&noisy) {
+        let Some(NoisyPoint { row, nm, value, .. }) = point else { continue };
+        let sample = name(&spectrum.record.name);
+        if !is_fine {
+            return Err(MeasurementError::Reflectance {
+                place: CellPlace::new(file, *row, &format!("{nm} nm")),
+                sample,
+                range: spectrum.scale.range(),
+                value: *value,
+            });
+        }
+        remarks.push(left_out(&sample, *row, *nm, *value, spectrum.scale));
+    }
+    let mut noisy = noisy.into_iter();
+    spectra.retain(|_| noisy.next().is_some_and(|point| point.is_none()));
+    Ok(())
 }
 
 fn tenths(nm: f64) -> f64 {

@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use documents::hint::Explain;
 use documents::{name_list, question};
-use serde::{Deserialize, Serialize};
+use spectra::headings::plain;
 use spectra::{Grid, IrregularSpectrum};
 
 use super::error::MeasurementError;
+use super::scale::Scale;
 
 /// Kind of surface that a reading is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,13 +22,23 @@ pub enum Film {
 impl Film {
     /// The kind of surface that a cell of the column `film` names. An empty cell is paint.
     pub(super) fn named(cell: &str) -> Option<Self> {
-        match cell.to_ascii_lowercase().as_str() {
-            "paint" | "" => Some(Self::Paint),
-            "none" => Some(Self::None),
+        const PAINT: [&str; 8] =
+            ["", "paint", "farbe", "peinture", "pintura", "pittura", "verf", "film"];
+        const NONE: [&str; 11] = [
+            "none", "bare", "keine", "kein", "ohne", "aucun", "aucune", "ninguna", "ninguno",
+            "nessuno", "geen",
+        ];
+        let plain = plain(cell);
+        match plain.as_str() {
+            word if PAINT.contains(&word) => Some(Self::Paint),
+            word if NONE.contains(&word) => Some(Self::None),
             _ => None,
         }
     }
 }
+
+/// Pairs of heading and cell. Readings share them in memory.
+pub type Conditions = Arc<[(Arc<str>, Arc<str>)]>;
 
 /// One reading of reflectance.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,6 +55,8 @@ pub struct Reading {
     pub backing: Arc<str>,
     /// Thickness of the film in mm, if known.
     pub thickness_mm: Option<f64>,
+    /// Headings and cells of the columns that say how the reading was taken, e.g. `Geometry` and `45as15`.
+    pub conditions: Conditions,
     /// Amount of each pigment of the table, 0 and up.
     pub amounts: Box<[f64]>,
     /// Measured reflectance as a fraction, at each wavelength of the table's grid.
@@ -116,86 +129,6 @@ impl MeasurementTable {
     }
 }
 
-/// Unit in which a file writes reflectance.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Scale {
-    /// A white reads about 100.
-    Percent,
-    /// A white reads about 1.
-    Fraction,
-}
-
-/// How the unit of a file is determined.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum ScaleChoice {
-    /// By the largest value of the whole file. Above 2 we take the unit for percent.
-    #[default]
-    ByFile,
-    /// You know the unit.
-    Known(Scale),
-}
-
-impl Scale {
-    pub(super) fn of_largest(largest: f64) -> Self {
-        if largest > 2.0 { Self::Percent } else { Self::Fraction }
-    }
-
-    pub(super) fn to_fraction(self) -> f64 {
-        match self {
-            Self::Percent => 0.01,
-            Self::Fraction => 1.0,
-        }
-    }
-
-    pub(super) fn range(self) -> &'static str {
-        match self {
-            Self::Percent => "from 0 to 200 %",
-            Self::Fraction => "from 0 to 2",
-        }
-    }
-}
-
-/// Readings of a file in percent that have no value above 1. They are black, or fractions among percent.
-#[derive(Debug, Default)]
-pub(super) struct DarkReadings {
-    all: usize,
-    count: usize,
-    /// Row, sample and largest value of the first.
-    first: Option<(u64, String, f64)>,
-}
-
-/// If several readings, and at least one in so many, are dark, the file holds two groups, and not a
-/// black patch or two.
-const ONE_DARK_IN: usize = 4;
-
-impl DarkReadings {
-    /// Counts a reading. `largest` is its largest value in percent.
-    pub(super) fn add(&mut self, row: u64, sample: &str, largest: f64) {
-        self.all += 1;
-        if largest <= 1.0 {
-            self.count += 1;
-            self.first.get_or_insert_with(|| (row, sample.to_owned(), largest));
-        }
-    }
-
-    /// A remark on the dark readings, if there are any. Where they may be fractions, this fails.
-    pub(super) fn checked(self, file: &str) -> Result<Option<String>, MeasurementError> {
-        let Some((row, sample, largest)) = self.first else { return Ok(None) };
-        let is_a_group = self.count > 1 || self.all < 3;
-        if is_a_group && ONE_DARK_IN * self.count >= self.all {
-            return Err(MeasurementError::MixedScale { file: file.to_owned(), row, largest });
-        }
-        let others = match self.count - 1 {
-            0 => String::new(),
-            more => format!(", and {}", documents::counted(more, "other dark reading")),
-        };
-        Ok(Some(format!(
-            "{sample} is read as at most {largest} %, since the file is in percent{others}"
-        )))
-    }
-}
-
 const LISTED: usize = 8;
 
 /// Mean of the repeated readings of one film or card.
@@ -253,7 +186,7 @@ impl MeasurementTable {
     }
 }
 
-fn is_same_film(a: &Reading, b: &Reading) -> bool {
+pub(super) fn is_same_film(a: &Reading, b: &Reading) -> bool {
     (&a.sample, a.film, &a.backing, a.thickness_mm)
         == (&b.sample, b.film, &b.backing, b.thickness_mm)
 }

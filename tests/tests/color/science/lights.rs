@@ -351,7 +351,7 @@ fn orange(nm: f64) -> f64 {
 
 #[test]
 fn irregular_wavelengths_keep_the_color_under_lamps_with_lines() {
-    // Steps of 6 to 9 nm suit a grid of 10 nm.
+    // Steps of 6 to 9 nm suit a grid of 5 nm.
     let nm: Vec<f64> =
         (0..57).map(|i| 365.0 + 7.5 * f64::from(i) + 1.5 * f64::from(i % 2)).collect();
     let values: Vec<f64> = nm.iter().map(|&nm| orange(nm)).collect();

@@ -22,6 +22,7 @@ fn reading(name: &str, time_ms: Option<f64>, counts: impl Fn(f64) -> f64) -> Mea
         values: wavelengths_nm.iter().map(|&nm| counts(nm)).collect(),
         wavelengths_nm,
         line: 1,
+        point_lines: Vec::new(),
         details: time.into_iter().collect(),
         remarks: Vec::new(),
     }
