@@ -149,6 +149,17 @@ def test_a_plan_has_the_form_of_the_program(oils: im.Library, tmp_path: Path) ->
     with pytest.raises(im.Error, match="exists already"):
         plan.save(tmp_path / "form.csv")
     assert abs(sum(plan.totals.values()) - 160.0) < 0.5, "ten grams a swatch"
+    assert plan.loss is None
+    plan.save_recipes(tmp_path / "recipes.csv")
+    assert b"\n01 Zinc White masstone,paint,white,01 white 1,10,,\n" in plan.recipes
+
+
+def test_a_short_plan_warns_of_its_loss() -> None:
+    with pytest.warns(im.FindingWarning, match="5 swatches instead of 8"):
+        plan = im.plan(["Cobalt Blue", "Viridian"], white="Zinc White", swatches="fewest")
+    assert plan.loss is not None and plan.loss["spare_swatches"] == 0
+    with pytest.warns(im.FindingWarning, match="7 swatches instead of 8"):
+        im.plan(["Cobalt Blue", "Viridian"], white="Zinc White", minutes=79)
 
 
 def test_a_report_is_one_page_with_figures(oils: im.Library, tmp_path: Path) -> None:
