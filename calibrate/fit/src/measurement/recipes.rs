@@ -230,6 +230,9 @@ impl<'a> RecipeRows<'a> {
     fn next_of(&mut self, reading: &Reading) -> Option<&'a Reading> {
         let at = self.joined;
         self.joined += 1;
+        if are_alike(&self.rows) {
+            return self.rows.first().copied();
+        }
         if self.is_in_order() {
             return self.rows.get(at).copied();
         }
@@ -375,6 +378,9 @@ mod tests {
         let table = joined(FORM, text).unwrap();
         assert_eq!(*table.readings[0].backing, *"black");
         assert_eq!(table.readings.len(), 3);
+        // Recipes may leave films and backings to the readings.
+        let plain = joined("sample,White,Red\nr,2,8\n", text).unwrap();
+        assert_eq!(*plain.readings[0].backing, *"black");
         assert!(
             table.remarks.iter().all(|remark| !remark.contains("order")),
             "{:?}",
