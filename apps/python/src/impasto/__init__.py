@@ -6,8 +6,10 @@ pigments are parts, of which only the ratios count, unless a library holds absol
 
 from impasto import color
 from impasto._native import __version__
+from impasto.agreement import Comparison, compare
 from impasto.cube import Cube
 from impasto.errors import Error, FileError, FindingWarning, FitError, ReadingError, RecipeError
+from impasto.film import Film, film
 from impasto.fitting import Fit, Surface, Validation, fit, validate
 from impasto.library import Library, Pigment
 from impasto.light import Light
@@ -21,9 +23,11 @@ from impasto.residuals import Residuals
 from impasto.spectrum import Spectrum
 
 __all__ = [
+    "Comparison",
     "Cube",
     "Error",
     "FileError",
+    "Film",
     "FindingWarning",
     "Fit",
     "FitError",
@@ -46,6 +50,8 @@ __all__ = [
     "Validation",
     "__version__",
     "color",
+    "compare",
+    "film",
     "fit",
     "pigment_map",
     "plan",
