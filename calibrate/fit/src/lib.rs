@@ -51,6 +51,7 @@ mod request;
 pub mod film;
 pub mod agreement;
 pub mod calibration;
+mod disorder;
 pub mod absolute;
 pub mod fitting;
 pub mod validation;

@@ -3,5 +3,6 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 mod cards;
+mod disorder;
 mod known_paint;
 mod oils;
