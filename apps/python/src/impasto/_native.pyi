@@ -20,6 +20,8 @@ __all__ = [
     "Validation",
     "__version__",
     "delta_e",
+    "compare",
+    "film",
     "fit",
     "plan",
     "quadrature",
@@ -156,10 +158,12 @@ def xyz(
 def rgb(xyz: Floats, white: tuple[float, float, float]) -> tuple[Floats, Floats]: ...
 def delta_e(first: Floats, second: Floats, cie1976: bool) -> Floats: ...
 def fit(
-    readings: Readings, request: str, light: Light, observer: str, progress: _Progress
+    readings: Readings, request: str,
+    surface_of: Library | None, light: Light, observer: str, progress: _Progress
 ) -> Fit: ...
 def validate(
-    readings: Readings, request: str, light: Light, observer: str, progress: _Progress
+    readings: Readings, request: str,
+    surface_of: Library | None, light: Light, observer: str, progress: _Progress
 ) -> Validation: ...
 def recipes_for(
     library: Library,
@@ -170,6 +174,19 @@ def recipes_for(
     over: Any,
     progress: _Progress,
 ) -> list[tuple[str, _Remarks]]: ...
+def compare(
+    readings: Readings,
+    against: Readings,
+    request: str,
+    light: Light,
+    observer: str,
+) -> tuple[str, _Remarks]: ...
+def film(
+    readings: Readings,
+    request: str,
+    light: Light,
+    observer: str,
+) -> tuple[str, _Remarks]: ...
 def plan(
     pigments: list[str],
     white: str,
