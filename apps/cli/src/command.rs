@@ -85,7 +85,7 @@ impl Man {
 
 /// Headings of the help with the verbs below each, in the order in which you need them.
 const GROUPS: [(&str, &[&str]); 5] = [
-    ("Measure and calibrate", &["plan", "color", "light", "fit", "validate", "report"]),
+    ("Measure and calibrate", &["plan", "color", "light", "film", "fit", "validate", "report"]),
     ("Mix and match", &["mix", "match", "correct", "library", "quadrature"]),
     ("Map a scan", &["map", "simulate-scan"]),
     ("Paint", &["paint", "relight", "watercolor", "artmap", "painterly", "stencil"]),

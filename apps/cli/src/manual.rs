@@ -103,7 +103,14 @@ fn examples(command: &Command, page: &mut Roff) {
 }
 
 /// Verbs, by their words, and commands that show them.
-const EXAMPLES: [(&str, &[&str]); 36] = [
+const EXAMPLES: [(&str, &[&str]); 37] = [
+    (
+        "film",
+        &[
+            "impasto film cards.csv --thickness-mm 0.1",
+            "impasto film films.ti3 --over-white W1 --over-black B1 --white-card W0 --black-card B0 --csv",
+        ],
+    ),
     (
         "fit",
         &[
@@ -131,6 +138,7 @@ const EXAMPLES: [(&str, &[&str]); 36] = [
     (
         "color",
         &[
+            "impasto color batch.csv --against standard.csv --tolerance 1",
             "impasto color measurements/van-gogh-oils.csv --illuminant FL11 --observer 10",
             "impasto color swatch.txt --white-reading white.txt --dark-reading dark.txt --tile 0.98",
             "cat spectra.csv | impasto color - --csv",

@@ -122,10 +122,20 @@ pub(crate) fn spectra(
     options: &ReadingOptions,
     console: &mut Console<'_>,
 ) -> Result<MeasurementTable> {
+    Ok(spectra_readings(paths, options, console)?.table)
+}
+
+/// Reads the spectra of measurement files with films, backings and thicknesses, but without recipes. Prints
+/// remarks on them.
+pub(crate) fn spectra_readings(
+    paths: &[PathBuf],
+    options: &ReadingOptions,
+    console: &mut Console<'_>,
+) -> Result<Readings> {
     remark_repeated(paths, console)?;
     let readings = Readings::open_spectra(paths, &options.options()?)?;
     console.remarks(&readings.remarks)?;
-    Ok(readings.table)
+    Ok(readings)
 }
 
 /// Warns of files that you name twice, since we then count their readings twice.

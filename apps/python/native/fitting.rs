@@ -92,11 +92,13 @@ pub(crate) fn fit(
     py: Python<'_>,
     readings: &Readings,
     request: &str,
+    surface_of: Option<&Library>,
     light: &Light,
     observer: &str,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Fit> {
     let request: FitRequest = request_from_json(request).raised(py, Exception::Fit)?;
+    let request = with_surface(request, surface_of);
     // The light may be a spectrum, which has no name that JSON could hold.
     let request = FitRequest { viewing: viewing(py, light, observer)?, ..request };
     let readings = readings.0.clone();
@@ -109,18 +111,28 @@ pub(crate) fn fit(
     done.map(|fit| Fit { fit }).raised(py, Exception::Fit)
 }
 
+/// The request with the surface of a library, if there is one.
+fn with_surface(request: FitRequest, library: Option<&Library>) -> FitRequest {
+    match library {
+        Some(library) => request.with_surface_of(&library.0),
+        None => request,
+    }
+}
+
 /// Predicts each mixture without its own measurement.
 #[pyfunction]
 pub(crate) fn validate(
     py: Python<'_>,
     readings: &Readings,
     request: &str,
+    surface_of: Option<&Library>,
     light: &Light,
     observer: &str,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Validation> {
     let request: ValidationRequest = request_from_json(request).raised(py, Exception::Fit)?;
-    let fit = FitRequest { viewing: viewing(py, light, observer)?, ..request.fit };
+    let fit = with_surface(request.fit, surface_of);
+    let fit = FitRequest { viewing: viewing(py, light, observer)?, ..fit };
     let request = ValidationRequest { fit, ..request };
     let readings = readings.0.clone();
     let done = run(py, progress, move |task| {

@@ -12,6 +12,7 @@ mod library;
 mod readings;
 mod residuals;
 mod fitting;
+mod film;
 mod matching;
 mod planning;
 mod quadrature;
@@ -26,6 +27,8 @@ mod _native {
     use crate::color::{delta_e, rgb, xyz};
     #[pymodule_export]
     use crate::cube::Cube;
+    #[pymodule_export]
+    use crate::film::{compare, film};
     #[pymodule_export]
     use crate::fitting::{Fit, Validation, fit, validate};
     #[pymodule_export]

@@ -149,6 +149,57 @@ def test_a_plan_has_the_form_of_the_program(oils: im.Library, tmp_path: Path) ->
     with pytest.raises(im.Error, match="exists already"):
         plan.save(tmp_path / "form.csv")
     assert abs(sum(plan.totals.values()) - 160.0) < 0.5, "ten grams a swatch"
+    assert plan.loss is None
+    plan.save_recipes(tmp_path / "recipes.csv")
+    assert b"\n01 Zinc White masstone,paint,white,01 white 1,10,,\n" in plan.recipes
+
+
+def test_a_short_plan_warns_of_its_loss() -> None:
+    with pytest.warns(im.FindingWarning, match="5 swatches instead of 8"):
+        plan = im.plan(["Cobalt Blue", "Viridian"], white="Zinc White", swatches="fewest")
+    assert plan.loss is not None and plan.loss["spare_swatches"] == 0
+    with pytest.warns(im.FindingWarning, match="7 swatches instead of 8"):
+        im.plan(["Cobalt Blue", "Viridian"], white="Zinc White", minutes=79)
+
+
+CARDS = """sample,film,backing,thickness_mm,400,500,600,700
+card,none,white,,0.85,0.86,0.87,0.87
+card,none,black,,0.05,0.05,0.05,0.05
+ochre,paint,white,0.08,0.20,0.35,0.62,0.68
+ochre,paint,black,0.08,0.17,0.28,0.50,0.52
+"""
+
+
+def test_a_film_on_two_cards_has_k_and_s_by_mm(tmp_path: Path) -> None:
+    path = tmp_path / "cards.csv"
+    path.write_text(CARDS)
+    [film] = im.film(im.read(path, spectra_only=True))
+    ratio, deviation = film.contrast_ratio
+    assert 0.79 < ratio < 0.81 and 0 < deviation < 0.01
+    row = film.powers[1]
+    assert abs(row["s_per_mm"] * 0.08 / row["s_d"] - 1) < 1e-4 and row["s_d_sd"] > 0
+    assert film.hiding is not None and film.hiding["thickness_mm"]["value"] > 0.08
+    with pytest.raises(im.FitError, match="four names"):
+        im.film(im.read(path, spectra_only=True), over_white="ochre")
+
+
+def test_a_fit_takes_the_surface_of_a_library(oils: im.Library) -> None:
+    readings = im.read(ROOT / "measurements/van-gogh-oils.csv")
+    with pytest.warns(im.FindingWarning, match="read as black"):
+        fit = im.fit(readings, surface=oils, method="weighted", reference="Zinc White")
+    assert fit.library.about["surface"] == oils.about["surface"]
+
+
+def test_two_sets_are_compared_by_name(tmp_path: Path) -> None:
+    names = ["batch.csv", "standard.csv"]
+    for name, red in zip(names, ["0.50", "0.55"]):
+        rows = f"sample,400,500,600,700\ngrey,0.3,0.3,0.3,0.3\nred,0.05,0.06,{red},0.6\n"
+        (tmp_path / name).write_text(rows + ("x,0.1,0.1,0.1,0.1\n" if name == "batch.csv" else ""))
+    batch, standard = (im.read(tmp_path / name, spectra_only=True) for name in names)
+    with pytest.warns(im.FindingWarning, match="only in the first set: x"):
+        found = im.compare(batch, standard, tolerance=1.0)
+    assert [sample["passes"] for sample in found.samples] == [True, False]
+    assert found.passed is False and found.about["shift"][0] < 0
 
 
 def test_a_report_is_one_page_with_figures(oils: im.Library, tmp_path: Path) -> None:

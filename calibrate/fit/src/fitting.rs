@@ -13,6 +13,7 @@ use spectra::optics::{Specular, Surface, UnevenFilm};
 
 use crate::absolute::{CHOICE_FITS, calibrate_absolute, chosen_film, films};
 use crate::calibration::{Calibration, CalibrationError, calibrate};
+use crate::disorder::{SuspectFit, explained, is_suspect};
 use crate::fit::{Condition, FitSettings, Method, RefinedState};
 use crate::measurement::{MeasurementError, k1_below};
 use crate::observation::{BelowSurface, Observation, check_backings, least_reading};
@@ -66,6 +67,9 @@ pub struct Fit {
     pub observations: Vec<Observation>,
     /// Rank and condition of the equations, or `None` for absolute amounts.
     pub condition: Option<Condition>,
+    /// Share of the colour differences between the samples that the recipes explain: 1 minus the mean
+    /// CIEDE2000 of the fit divided by the mean CIEDE2000 from the mean colour. `None` for absolute amounts.
+    pub explained: Option<f64>,
     /// Estimates that a validation reuses.
     pub(crate) state: Option<RefinedState>,
 }
@@ -243,8 +247,28 @@ impl PreparedFit {
         library.title = self.title.clone();
         library.licence = self.licence.clone();
         library.source = self.source.clone();
+        let explained = self.check_order(&mut library, &observations, task);
         let remarks = remarks(&observations, condition.as_ref());
-        Ok(Fit { library, remarks, observations, condition, state })
+        Ok(Fit { library, remarks, observations, condition, explained, state })
+    }
+
+    /// Share of the colour differences that the recipes explain. If it is small, a warning says so and names
+    /// an order of the recipes that explains more.
+    fn check_order(
+        &self,
+        library: &mut PigmentLibrary,
+        observations: &[Observation],
+        task: &Task,
+    ) -> Option<f64> {
+        let FilmModel::Relative { reference, surface } = self.model else { return None };
+        let Self { set, settings, viewing, .. } = self;
+        let evidence = library.evidence.as_mut()?;
+        let explained = explained(set, observations, &evidence.per_sample, viewing);
+        if is_suspect(explained, evidence.delta_e.mean) {
+            let suspect = SuspectFit { set, reference, surface, settings, viewing };
+            evidence.warnings.splice(0..0, suspect.warning(task));
+        }
+        explained
     }
 }
 

@@ -25,6 +25,8 @@
 //! | fit a library | [`fit()`] |
 //! | error of mixtures that the fit has not seen | [`validate`] |
 //! | which swatches to paint | [`plan()`] |
+//! | compare two sets of measurements | [`compare_sets`] |
+//! | K, S and hiding power of a film on two cards | [`film()`] |
 //! | compare a library with measurements | [`comparison::Comparable`] |
 //! | colours and recipes of a library | [`PigmentLibrary`], from the crate `pigment`, whose modules are here too |
 //!
@@ -46,7 +48,10 @@ pub mod fit;
 mod residuals;
 pub mod report;
 mod request;
+pub mod film;
+pub mod agreement;
 pub mod calibration;
+mod disorder;
 pub mod absolute;
 pub mod fitting;
 pub mod validation;
@@ -54,6 +59,8 @@ pub mod comparison;
 pub mod plan;
 pub mod synthetic;
 
+pub use agreement::{CompareRequest, compare_sets};
+pub use film::{FilmRequest, film};
 pub use fitting::{FilmModel, Fit, FittingError, PreparedFit, fit};
 pub use ground::{BackingTextError, backing_from_text};
 pub use plan::plan;

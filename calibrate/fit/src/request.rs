@@ -4,7 +4,7 @@
 
 use documents::request::{RequestError, from_text};
 use pigment::evaluate::Viewing;
-use pigment::library::AmountKind;
+use pigment::library::{AmountKind, PigmentLibrary};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use spectra::optics::{Specular, Surface};
@@ -97,6 +97,31 @@ pub struct ValidationRequest {
 }
 
 impl FitRequest {
+    /// The request with the surface of `library`, so that both libraries can be merged. A library of absolute
+    /// amounts also gives its unevenness. Unless you state another treatment, readings below the surface's own
+    /// reflection are read as black.
+    ///
+    /// ```
+    /// use calibrate::observation::BelowSurface;
+    /// use calibrate::{FitRequest, PigmentLibrary};
+    ///
+    /// let oils = PigmentLibrary::van_gogh_oils();
+    /// let request = FitRequest::default().with_surface_of(&oils);
+    /// assert_eq!(request.surface, Some(oils.saunderson));
+    /// assert_eq!(request.below_surface, Some(BelowSurface::Floor));
+    /// ```
+    #[must_use]
+    pub fn with_surface_of(self, library: &PigmentLibrary) -> Self {
+        let is_absolute = library.amounts == AmountKind::Absolute;
+        Self {
+            surface: Some(library.saunderson),
+            specular: library.saunderson.specular,
+            below_surface: self.below_surface.or(Some(BelowSurface::Floor)),
+            unevenness: if is_absolute { Some(library.unevenness) } else { self.unevenness },
+            ..self
+        }
+    }
+
     /// The surface that the request states, if it does. You can exclude the specular reflection in either
     /// `surface` or `specular`.
     pub(crate) fn stated_surface(&self) -> Option<Surface> {
@@ -107,18 +132,20 @@ impl FitRequest {
     }
 }
 
-fn write_surface<S: Serializer>(
+pub(crate) fn write_surface<S: Serializer>(
     surface: &Option<Surface>,
     serializer: S,
 ) -> Result<S::Ok, S::Error> {
     surface.map(|surface| [surface.k1, surface.k2]).serialize(serializer)
 }
 
-fn read_surface<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Surface>, D::Error> {
+pub(crate) fn read_surface<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Option<Surface>, D::Error> {
     from_text(deserializer, |text| text.parse().map(Some))
 }
 
-fn surface_schema(_: &mut SchemaGenerator) -> Schema {
+pub(crate) fn surface_schema(_: &mut SchemaGenerator) -> Schema {
     let number = json_schema!({ "type": "number", "minimum": 0, "exclusiveMaximum": 1 });
     json_schema!({
         "anyOf": [

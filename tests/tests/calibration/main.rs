@@ -2,5 +2,7 @@
 //! unknowns that the data do not determine are reported.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+mod cards;
+mod disorder;
 mod known_paint;
 mod oils;

@@ -5,3 +5,4 @@
 mod optics;
 mod properties;
 mod science;
+mod sets;

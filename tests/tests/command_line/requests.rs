@@ -3,7 +3,7 @@
 use calibrate::matching::{CorrectRequest, MatchRequest};
 use calibrate::plan::PlanRequest;
 use calibrate::quadrature::QuadratureRequest;
-use calibrate::{FitRequest, ValidationRequest};
+use calibrate::{CompareRequest, FilmRequest, FitRequest, ValidationRequest};
 use maps::MapRequest;
 use maps::cube::CubeOptions;
 use pictures::{
@@ -24,6 +24,8 @@ fn schema() -> Value {
     generator.subschema_for::<FitRequest>();
     generator.subschema_for::<ValidationRequest>();
     generator.subschema_for::<PlanRequest>();
+    generator.subschema_for::<FilmRequest>();
+    generator.subschema_for::<CompareRequest>();
     generator.subschema_for::<MatchRequest>();
     generator.subschema_for::<CorrectRequest>();
     generator.subschema_for::<QuadratureRequest>();

@@ -281,6 +281,33 @@ fn the_oils_are_sound_with_known_doubts() {
 }
 
 #[test]
+fn two_default_fits_are_merged_with_the_surface_of_one_of_them() {
+    let folder = LibraryFolder::new();
+    let [all, light, both] = ["all.json", "light.json", "both.json"].map(|name| folder.path(name));
+    let readings = suite::program::repository("measurements/van-gogh-oils.csv");
+    let fit = |more: &[&str], output: &str| {
+        let method = ["--method", "weighted", "--white", "Zinc White", "--output", output];
+        suite::program::impasto(&[&["fit", &readings], &method[..], more].concat())
+    };
+    // Without the darkest paint another k1 suffices.
+    assert_eq!(fit(&[], &all).status, 0);
+    assert_eq!(fit(&["--exclude", "11A"], &light).status, 0);
+    let merge = ["merge", &all, &light, "--prefer", "first", "--output", &both];
+    refused(&merge, 1, &["the surface differs", &format!("fit {light} again"), "--surface-of"]);
+    let run = fit(&["--exclude", "11A", "--surface-of", &all], &light);
+    assert_eq!(run.status, 0, "{}", run.err);
+    assert_eq!(read(&light).saunderson, read(&all).saunderson);
+    done(&merge);
+    let twice = fit(&["--surface-of", &all, "--saunderson", "0.03,0.6"], &light);
+    assert_eq!(twice.status, 2, "{}", twice.err);
+    // A fit whose options state nothing is told.
+    let found = warnings(&light);
+    for words in ["no licence is stated", "no source is stated", "geometry of the instrument"] {
+        assert!(found.contains(words), "{words}: {found}");
+    }
+}
+
+#[test]
 fn what_was_made_doubtful_is_found() {
     let folder = LibraryFolder::new();
     let doubtful = folder.changed("doubtful.json", &oils(), |library| {

@@ -110,6 +110,84 @@ fn the_file_asks_for_bare_cards_and_for_every_swatch_over_both() {
     assert!(fine.err.contains("--white \"Zinc White\""), "{}", fine.err);
 }
 
+/// The readings of a filled form as an instrument saves them: a name and the spectrum of each. `named` are
+/// the names, in the order of the form.
+fn as_an_instrument(full: &str, named: &[String]) -> String {
+    let first_nm = full.lines().next().unwrap().split(',').position(|name| name == "400").unwrap();
+    let mut names = std::iter::once("Name").chain(named.iter().map(String::as_str));
+    let lines = full.lines().map(|line| {
+        let cells: Vec<&str> = line.split(',').collect();
+        format!("{},{}\n", names.next().unwrap(), cells[first_nm..].join(","))
+    });
+    lines.collect()
+}
+
+/// The cells of one column of a CSV without quotes.
+fn column(text: &str, heading: &str) -> Vec<String> {
+    let place = text.lines().next().unwrap().split(',').position(|name| name == heading).unwrap();
+    text.lines().skip(1).map(|line| line.split(',').nth(place).unwrap().to_owned()).collect()
+}
+
+#[test]
+fn files_of_an_instrument_are_fitted_with_the_recipes_of_the_plan_or_with_its_form() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name).display().to_string();
+    let printed = plan(&["--output", &file("form.csv")]).err;
+    for word in ["fit FILE.. --recipes", "form-recipes.csv", "--white \"Zinc White\""] {
+        assert!(printed.contains(word), "{word} in {printed}");
+    }
+    let form = std::fs::read_to_string(file("form.csv")).unwrap();
+    let recipes = std::fs::read_to_string(file("form-recipes.csv")).unwrap();
+    let full = filled(&form, &oils(), 0.001, 5);
+    std::fs::write(file("full.csv"), &full).unwrap();
+    let readings = column(&recipes, "reading");
+    assert_eq!(readings[4..6], ["01 white 1", "01 white 2"]);
+    let expected = impasto(&["fit", &file("full.csv"), "--method", "qp", "--json"]).json();
+    for (recipes, named, in_order) in
+        [("form-recipes.csv", readings, false), ("form.csv", column(&form, "sample"), true)]
+    {
+        std::fs::write(file("saved.csv"), as_an_instrument(&full, &named)).unwrap();
+        let options = ["--recipes", &file(recipes), "--method", "qp", "--json"];
+        let run = impasto(&[&["fit", &file("saved.csv")], &options[..]].concat());
+        assert_eq!(run.status, 0, "{recipes}: {}", run.err);
+        assert_eq!(run.err.contains("order of the files"), in_order, "{recipes}: {}", run.err);
+        assert_eq!(run.json()["per_sample"], expected["per_sample"], "{recipes}");
+    }
+}
+
+#[test]
+fn a_short_plan_says_what_it_loses() {
+    let prior = repository(OILS);
+    for (more, swatches, spare, says) in [
+        (&["--swatches", "fewest"][..], 9, 0, "without 4 tints, 3 shades, 3 crosses; no swatch"),
+        (&["--swatches", "12"], 12, 3, "3 swatches check the fit"),
+        (&["--minutes", "139"], 13, 4, "13 swatches instead of 19"),
+        (&["--minutes", "60", "--minutes-each", "5"], 12, 3, "12 swatches instead of 19"),
+        (&["--minutes", "900"], 19, 10, ""),
+        (&["--minutes", "100", "--prior", &prior], 10, 1, "(median of 5 paints)"),
+    ] {
+        let run = plan(&[more, &["--json"]].concat());
+        let json = run.json();
+        assert_eq!(json["swatches"].as_array().unwrap().len(), swatches, "{more:?}");
+        if says.is_empty() {
+            assert!(json["loss"].is_null() && !run.err.contains("instead of"), "{}", run.err);
+            continue;
+        }
+        assert_eq!(json["loss"]["full_swatches"], 19, "{more:?}");
+        assert_eq!(json["loss"]["spare_swatches"], spare, "{more:?}");
+        assert!(run.err.contains("warning: ") && run.err.contains(says), "{more:?}: {}", run.err);
+        let mean = |deviations: &serde_json::Value| -> f64 {
+            let paints = deviations.as_object().unwrap().values();
+            paints.map(|paint| paint["absorption"].as_f64().unwrap().ln()).sum()
+        };
+        let full = &json["loss"]["full_relative_deviations"];
+        assert_eq!(full.is_null(), json["prior"].is_null());
+        if !full.is_null() {
+            assert!(mean(&json["prior"]["relative_deviations"]) > mean(full), "{json}");
+        }
+    }
+}
+
 #[test]
 fn a_filled_in_file_gives_k_and_s_back_within_the_predicted_deviations() {
     let folder = tempfile::tempdir().unwrap();
@@ -201,6 +279,10 @@ fn what_cannot_be_planned_is_refused_with_a_way_out() {
         (&["A", "--white", "W", "--swatches", "900"], "found `900`", "--replicates"),
         (&["A", "--white", "W", "--balance", "0.1"], "found `10`", "--grams 25"),
         (&["A", "--white", "W", "--grams", "-1"], "found `-1`", "--balance 0.01"),
+        (&["A", "--white", "W", "--swatches", "few"], "found `few`", "--swatches fewest"),
+        (&["A", "--white", "W", "--minutes", "29"], "found `29`", "--minutes 30"),
+        (&["A", "--white", "W", "--minutes", "0"], "found `0`", "--minutes 240"),
+        (&["A", "--white", "W", "--minutes", "60", "--swatches", "3"], "exclude", "--minutes"),
         (&["A", "--white", "W", "--grid", "400,705,10"], "`400,705,10`", "400,700,10"),
         (&["A", "--white", "W", "--replicates", "0"], "found `0`", "--replicates 2"),
         (&["A", "--white", "W", "--prior", &prior], "called `A`", "Cobalt Blue"),
@@ -305,6 +387,10 @@ fn every_command_of_the_page_on_measuring_runs() {
             let empty = std::fs::read_to_string(words[at + 1]).unwrap();
             let full = filled(&empty, &oils, 0.002, 3);
             std::fs::write(words[at + 1], &full).unwrap();
+            let recipes = words[at + 1].replace(".csv", "-recipes.csv");
+            let readings = column(&std::fs::read_to_string(recipes).unwrap(), "reading");
+            let saved = as_an_instrument(&full, &readings);
+            std::fs::write(folder.path().join("saved.csv"), saved).unwrap();
             let (spectra, amounts) = parted(&full);
             std::fs::write(folder.path().join("spectra.csv"), spectra).unwrap();
             std::fs::write(folder.path().join("amounts.csv"), amounts).unwrap();

@@ -10,6 +10,7 @@ use clap::{Args, ValueEnum};
 use documents::file::is_there;
 use serde_json::{Value, json};
 
+use super::against::Against;
 use crate::console::Console;
 use crate::csv_rows::{TableColors, rounded};
 use crate::failure::{Failure, Result};
@@ -38,7 +39,7 @@ enum AdaptationName {
 /// Reads what `fit` reads: the CSV, whose pigment columns do not matter here, or an instrument's
 /// file (see --format). Repeated readings of one sample on one backing are averaged. Several lights
 /// may be given; with --compare the metamerism index (change of illuminant from the first light) is
-/// printed for each later one.
+/// printed for each later one. --against compares two sets of measurements sample by sample.
 #[derive(Debug, Args)]
 #[command(mut_arg("white_reading", |option| option.alias("white")))]
 pub(crate) struct Color {
@@ -58,6 +59,16 @@ pub(crate) struct Color {
     /// Print the difference of every spectrum from this one
     #[arg(long, value_name = "SAMPLE")]
     compare: Option<String>,
+    /// Compare each sample with the sample of the same name in this file (may be repeated)
+    ///
+    /// Prints CIEDE2000 of each sample, the mean, the 95th percentile, the largest, and the mean shift
+    /// in L*, a* and b*. JSON: a list by light of illuminant, observer, samples, mean, p95, max, shift,
+    /// tolerance, failed, only_first, only_second.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["compare", "sample", "show"])]
+    against: Vec<PathBuf>,
+    /// Largest CIEDE2000 that passes; a sample beyond it ends with exit status 1
+    #[arg(long, value_name = "CIEDE2000", requires = "against")]
+    tolerance: Option<f64>,
     /// RGB space of `srgb` and `hex`
     #[arg(long, value_enum, default_value = "srgb")]
     space: SpaceName,
@@ -94,6 +105,18 @@ impl Color {
             .map(|light| viewing(light, &self.observer))
             .collect::<Result<Vec<Viewing>>>()?;
         self.files.iter().try_for_each(|file| refuse_sample(file))?;
+        if !self.against.is_empty() {
+            let against = Against {
+                files: &self.files,
+                against: &self.against,
+                lights: &lights,
+                tolerance: self.tolerance,
+                reading: &self.reading,
+                json: self.json,
+                csv: self.csv,
+            };
+            return against.run(console);
+        }
         let table = spectra(&self.files, &self.reading, console)?;
         remark_coverage(table.grid, console)?;
         let weights = lights

@@ -15,7 +15,7 @@ use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::output::Output;
 use crate::progress::{Progress, Waiting};
-use crate::readings::{ReadingOptions, ViewingOptions, measurements};
+use crate::readings::{ReadingOptions, ViewingOptions, library, measurements};
 use crate::request_options::{CommandLine, RequestOptions, without_value_help};
 
 /// Heading of the options for the file that is written.
@@ -137,6 +137,12 @@ pub(super) struct CalibrationOptions {
     pigments: Vec<String>,
     #[command(flatten)]
     fit: RequestOptions<FitRequest>,
+    /// Take the surface of this library (JSON), so that both can be merged: its k1, k2 and specular
+    /// reflection, and the unevenness of absolute amounts
+    ///
+    /// Readings below k1 are then read as black, unless --below-surface says otherwise.
+    #[arg(long, value_name = "LIBRARY")]
+    surface_of: Option<PathBuf>,
     #[command(flatten)]
     reading: ReadingOptions,
 }
@@ -145,7 +151,8 @@ impl CalibrationOptions {
     /// Paths of all files that are read.
     pub(super) fn files(&self) -> Vec<PathBuf> {
         let reading = self.reading.with_white_reading(self.old_white_reading());
-        self.files.iter().chain(&self.recipes).cloned().chain(reading.files()).collect()
+        let others = self.recipes.iter().chain(&self.surface_of);
+        self.files.iter().chain(others).cloned().chain(reading.files()).collect()
     }
 
     /// The file of a white reading, if `--white` names one, as it did in older versions.
@@ -180,7 +187,15 @@ impl CalibrationOptions {
         if options.is("surface", "none") {
             options.take("specular");
         }
-        Ok(FitRequest { reference, viewing, ..options.request()? })
+        let request = FitRequest { reference, viewing, ..options.request()? };
+        let Some(path) = &self.surface_of else { return Ok(request) };
+        if request.surface.is_some() {
+            return Err(Failure::usage(
+                "--surface-of and --saunderson both state the surface",
+                "leave one of them out",
+            ));
+        }
+        Ok(request.with_surface_of(&library(path)?))
     }
 }
 

@@ -2,6 +2,7 @@
 mod fit;
 mod validate;
 mod mix;
+mod against;
 mod color;
 mod light;
 mod quadrature;
@@ -9,6 +10,7 @@ mod recipe_search;
 mod correct;
 mod library;
 mod plan;
+mod film;
 mod demo;
 
 use clap::Subcommand;
@@ -37,6 +39,7 @@ pub(crate) enum Verb {
     Correct(Box<correct::Correct>),
     Library(library::Library),
     Plan(plan::Plan),
+    Film(Box<film::Film>),
     Demo(demo::Demo),
     #[cfg(feature = "pictures")]
     #[command(flatten)]
@@ -56,6 +59,7 @@ impl Verb {
             Self::Correct(verb) => verb.run(console),
             Self::Library(verb) => verb.run(console),
             Self::Plan(verb) => verb.run(console),
+            Self::Film(verb) => verb.run(console),
             Self::Demo(verb) => verb.run(console),
             #[cfg(feature = "pictures")]
             Self::Picture(verb) => verb.run(console),

@@ -1,10 +1,11 @@
 //! `impasto plan` plans the swatches to prepare, and prints the plan as text, CSV or JSON.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use calibrate::plan::{Forecast, MeasurementForm, PaintSet, Plan as PlanReportPlan, PlanRequest};
 use clap::{Arg, Args};
 use documents::Task;
+use documents::file::is_stream;
 use spectra::Grid;
 
 use crate::console::Console;
@@ -24,8 +25,9 @@ const MAX_WAVELENGTHS: usize = 5001;
 /// Prints the recipe of each swatch in parts and grams, and the total of each paint. With a
 /// library of similar paint, the swatches are chosen to determine K and S best (D-optimal), and the
 /// expected deviations are predicted. --output writes the measurement file to fill in: bare cards
-/// and every swatch over a white and a black card, amounts in grams. Replace its amounts by what
-/// the balance showed.
+/// and every swatch over a white and a black card, amounts in grams. It also writes a file of recipes,
+/// for an instrument that saves its own files: the column `reading` has the name to give each reading,
+/// and `fit` takes the file with --recipes. Replace the amounts by what the balance showed.
 #[derive(Debug, Args)]
 #[command(override_usage = "impasto plan [OPTIONS] --white <NAME> [LIBRARY] <PIGMENT>...")]
 pub(crate) struct Plan {
@@ -50,7 +52,11 @@ pub(crate) struct Plan {
     /// The empty measurement file to write (CSV)
     #[arg(short, long, value_name = "CSV")]
     output: Option<PathBuf>,
-    /// Print JSON: swatches, totals_g, unknowns, identified, prior (null without)
+    /// The file of recipes to write, for files of an instrument (CSV) [default: beside the measurement
+    /// file, with -recipes added to its name]
+    #[arg(long, value_name = "CSV")]
+    recipes: Option<PathBuf>,
+    /// Print JSON: swatches, totals_g, unknowns, identified, prior (null without), loss (null if none)
     #[arg(long)]
     json: bool,
     /// Print the swatches as CSV
@@ -62,7 +68,8 @@ impl CommandLine for PlanRequest {
     fn adapted(key: &str, option: Arg) -> Arg {
         match key {
             "black" => option.value_name("NAME"),
-            "swatches" => option.value_name("N"),
+            "swatches" => option.value_name("N|fewest"),
+            "minutes" | "minutes_each" => option.value_name("MINUTES"),
             "noise" => option.value_name("CONSTANT,EVEN").allow_hyphen_values(true),
             _ => option.value_name("G"),
         }
@@ -92,18 +99,9 @@ impl Plan {
             ));
         }
         let inputs: Vec<PathBuf> = path.iter().cloned().collect();
-        let output = self.output.as_ref().map(|path| {
-            let output = Output::open(path, &inputs)?;
-            // The file may hold readings by now.
-            if path.exists() {
-                return Err(Failure::usage(
-                    format!("{}: exists already and is not overwritten", path.display()),
-                    "give another name, or remove the file first",
-                ));
-            }
-            Ok(output)
-        });
-        let output = output.transpose()?;
+        let recipes_path = self.recipes_path();
+        let output = self.output.as_deref().map(|path| new_output(path, &inputs)).transpose()?;
+        let recipes = recipes_path.as_deref().map(|path| new_output(path, &inputs)).transpose()?;
         let prior = path.as_deref().map(library).transpose()?;
         let request = PlanRequest { prior, ..request };
         let plan = waited("choosing swatches", console, || {
@@ -112,6 +110,9 @@ impl Plan {
         console.remarks(&plan.remarks)?;
         if let Some(output) = output {
             output.write(plan.form(&form), console)?;
+        }
+        if let Some(recipes) = recipes {
+            recipes.write(plan.recipes(&form), console)?;
         }
         if self.csv {
             let whole = plan.to_json();
@@ -131,15 +132,33 @@ impl Plan {
         if let Some(forecast) = &plan.forecast {
             print_forecast(&plan.paints, forecast, console)?;
         }
-        match &self.output {
+        let white = plan.paints.name(PaintSet::WHITE);
+        if let Some(path) = self.output.as_deref().filter(|path| !is_stream(path)) {
+            let path = quoted(path);
+            console.remark(format!(
+                "next: fill in {path}, then run impasto fit {path} --white \"{white}\""
+            ))?;
+        }
+        match &recipes_path {
             Some(path) => console.remark(format!(
-                "next: fill in {}, then run impasto fit {} --white \"{}\"",
-                path.display(),
-                path.display(),
-                plan.paints.name(PaintSet::WHITE)
+                "with files of an instrument: name each reading as the column `reading` says, then run impasto fit FILE.. --recipes {} --white \"{white}\"",
+                quoted(path)
             )),
+            None if self.output.is_some() => Ok(()),
             None => console.remark("give --output FILE.csv for the measurement file to fill in"),
         }
+    }
+
+    /// Path of the file of recipes. `None` if no file is written.
+    fn recipes_path(&self) -> Option<PathBuf> {
+        self.recipes.clone().or_else(|| {
+            let output = self.output.as_ref()?;
+            if is_stream(output) {
+                return None;
+            }
+            let stem = output.file_stem()?.to_string_lossy();
+            Some(output.with_file_name(format!("{stem}-recipes.csv")))
+        })
     }
 
     fn replicates(&self) -> Result<usize> {
@@ -171,6 +190,24 @@ impl Plan {
         }
         Ok(grid)
     }
+}
+
+/// Opens a file that must not exist yet, since you may have written readings or amounts in it.
+fn new_output(path: &Path, inputs: &[PathBuf]) -> Result<Output> {
+    let output = Output::open(path, inputs)?;
+    if path.exists() {
+        return Err(Failure::usage(
+            format!("{}: exists already and is not overwritten", path.display()),
+            "give another name, or remove the file first",
+        ));
+    }
+    Ok(output)
+}
+
+/// A path as you type it in a shell.
+fn quoted(path: &Path) -> String {
+    let text = path.display().to_string();
+    if text.contains(' ') { format!("\"{text}\"") } else { text }
 }
 
 pub(super) fn print_swatches(plan: &PlanReportPlan, console: &mut Console<'_>) -> Result<()> {

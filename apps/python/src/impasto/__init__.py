@@ -6,9 +6,11 @@ pigments are parts, of which only the ratios count, unless a library holds absol
 
 from impasto import color
 from impasto._native import __version__
+from impasto.agreement import Comparison, compare
 from impasto.books import ColorBook
 from impasto.cube import Cube
 from impasto.errors import Error, FileError, FindingWarning, FitError, ReadingError, RecipeError
+from impasto.film import Film, film
 from impasto.fitting import Fit, Surface, Validation, fit, validate
 from impasto.library import Library, Pigment
 from impasto.light import Light
@@ -23,9 +25,11 @@ from impasto.spectrum import Spectrum
 
 __all__ = [
     "ColorBook",
+    "Comparison",
     "Cube",
     "Error",
     "FileError",
+    "Film",
     "FindingWarning",
     "Fit",
     "FitError",
@@ -48,6 +52,8 @@ __all__ = [
     "Validation",
     "__version__",
     "color",
+    "compare",
+    "film",
     "fit",
     "pigment_map",
     "plan",

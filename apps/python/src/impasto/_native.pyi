@@ -22,6 +22,8 @@ __all__ = [
     "__version__",
     "color_book",
     "delta_e",
+    "compare",
+    "film",
     "fit",
     "plan",
     "quadrature",
@@ -158,10 +160,12 @@ def xyz(
 def rgb(xyz: Floats, white: tuple[float, float, float]) -> tuple[Floats, Floats]: ...
 def delta_e(first: Floats, second: Floats, cie1976: bool) -> Floats: ...
 def fit(
-    readings: Readings, request: str, light: Light, observer: str, progress: _Progress
+    readings: Readings, request: str,
+    surface_of: Library | None, light: Light, observer: str, progress: _Progress
 ) -> Fit: ...
 def validate(
-    readings: Readings, request: str, light: Light, observer: str, progress: _Progress
+    readings: Readings, request: str,
+    surface_of: Library | None, light: Light, observer: str, progress: _Progress
 ) -> Validation: ...
 @final
 class BookColor:
@@ -180,13 +184,26 @@ def recipes_for(
     over: Any,
     progress: _Progress,
 ) -> list[tuple[str, _Remarks]]: ...
+def compare(
+    readings: Readings,
+    against: Readings,
+    request: str,
+    light: Light,
+    observer: str,
+) -> tuple[str, _Remarks]: ...
+def film(
+    readings: Readings,
+    request: str,
+    light: Light,
+    observer: str,
+) -> tuple[str, _Remarks]: ...
 def plan(
     pigments: list[str],
     white: str,
     request: str,
     prior: Library | None,
     form: tuple[_Grid, int],
-) -> tuple[str, bytes, _Remarks]: ...
+) -> tuple[str, list[bytes], _Remarks]: ...
 def quadrature(library: Library | None, request: str, light: Light, observer: str) -> str: ...
 def report(
     library: Library,

@@ -135,7 +135,7 @@ def fit(
     readings: Readings,
     *,
     reference: str | None = None,
-    surface: Surface | None = None,
+    surface: Surface | Library | None = None,
     specular: bool = True,
     amounts: str = "relative",
     method: str = "refined",
@@ -153,13 +153,14 @@ def fit(
     """Fits K and S of every pigment, as `impasto fit` does.
 
     `reference` is the white whose S is 1 (default: the commonest white). `surface` is chosen if none is
-    given. `amounts` is `relative` or `absolute`, `method` `refined`, `weighted` or `qp`. Light and
+    given; a library gives its own, so that both can be merged. `amounts` is `relative` or `absolute`, `method` `refined`, `weighted` or `qp`. Light and
     observer set the colour errors only. `progress` is called with each stage as text. Ctrl-C ends the fit.
 
     Raises `FitError`; findings about the data are told as `FindingWarning`.
     """
     request = json.dumps(_request(locals()))
-    result = Fit(_native.fit(readings._native, request, light_of(illuminant), observer, progress))
+    light = light_of(illuminant)
+    result = Fit(_native.fit(readings._native, request, _surface_of(surface), light, observer, progress))
     warn(result.warnings)
     return result
 
@@ -170,7 +171,7 @@ def validate(
     folds: int | None = None,
     using: Sequence[str] = (),
     reference: str | None = None,
-    surface: Surface | None = None,
+    surface: Surface | Library | None = None,
     specular: bool = True,
     amounts: str = "relative",
     method: str = "refined",
@@ -190,9 +191,17 @@ def validate(
     """
     request = json.dumps({"fit": _request(locals()), "folds": folds, "with": list(using)})
     light = light_of(illuminant)
-    result = Validation(_native.validate(readings._native, request, light, observer, progress))
+    native = readings._native
+    result = Validation(
+        _native.validate(native, request, _surface_of(surface), light, observer, progress)
+    )
     warn(result.warnings)
     return result
+
+
+def _surface_of(surface: Surface | Library | None) -> _native.Library | None:
+    """The library whose surface a fit takes."""
+    return surface._native if isinstance(surface, Library) else None
 
 
 def _request(given: dict[str, Any]) -> dict[str, Any]:
@@ -200,7 +209,7 @@ def _request(given: dict[str, Any]) -> dict[str, Any]:
     surface = given["surface"]
     keys = ["amounts", "method", "reference", "below_surface"]
     request = {key: given[key] for key in keys} | {
-        "surface": None if surface is None else f"{surface.k1},{surface.k2}",
+        "surface": f"{surface.k1},{surface.k2}" if isinstance(surface, Surface) else None,
         "specular": "included" if given["specular"] else "excluded",
         "exclude": list(given["exclude"]),
         "provenance": {key: given.get(key) for key in ["title", "licence", "source"]},

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from impasto import _native
 from impasto.display import table
@@ -19,11 +19,13 @@ if TYPE_CHECKING:
 class Plan:
     """Swatches to prepare, so that a fit identifies K and S of every pigment."""
 
-    def __init__(self, about: dict[str, Any], form: bytes) -> None:
+    def __init__(self, about: dict[str, Any], form: bytes, recipes: bytes) -> None:
         self.about = about
         """The plan with the keys of `impasto plan --json`."""
         self.form = form
         """The empty measurement file (CSV) to be filled in."""
+        self.recipes = recipes
+        """Recipes of its readings (CSV), for files of an instrument; `reading` names each of them."""
 
     @property
     def swatches(self) -> list[dict[str, Any]]:
@@ -37,11 +39,25 @@ class Plan:
         result: dict[str, float] = self.about["totals_g"]
         return result
 
+    @property
+    def loss(self) -> dict[str, Any] | None:
+        """Loss against the default number of swatches: full_swatches, spare_swatches, left_out,
+        full_relative_deviations (with a prior). None if there is none."""
+        result: dict[str, Any] | None = self.about["loss"]
+        return result
+
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the measurement file; an existing file is not overwritten, since it may hold readings."""
+        self._save(path, self.form)
+
+    def save_recipes(self, path: str | os.PathLike[str]) -> None:
+        """Writes the recipes, for `Readings.read(.., recipes=path)`; an existing file is not overwritten."""
+        self._save(path, self.recipes)
+
+    def _save(self, path: str | os.PathLike[str], content: bytes) -> None:
         try:
             with open(path, "xb") as file:
-                file.write(self.form)
+                file.write(content)
         except FileExistsError:
             message = f"{os.fspath(path)}: exists already and is not overwritten"
             raise Error(message, "give another name, or remove the file first") from None
@@ -70,7 +86,9 @@ def plan(
     *,
     black: str | None = None,
     prior: Library | None = None,
-    swatches: int | None = None,
+    swatches: int | Literal["fewest"] | None = None,
+    minutes: float | None = None,
+    minutes_each: float = 10.0,
     grams: float = 10.0,
     balance: float = 0.01,
     noise: tuple[float, float] | None = None,
@@ -80,7 +98,8 @@ def plan(
     """Plans the swatches to prepare, as `impasto plan` does.
 
     With `prior`, a library of similar paint, they are chosen to determine K and S best (D-optimal).
-    `grams` is the paint in one swatch, `balance` the step of the balance, `noise` the standard deviations
+    `swatches` is their number, or "fewest" for one per unknown; `minutes` plans as many as fit in this time, at
+    `minutes_each`. A warning says what a short plan loses. `grams` is the paint in one swatch, `balance` the step of the balance, `noise` the standard deviations
     of instrument and mixing. `grid` (first, last, step in nm) and `replicates` shape the form.
     """
     if isinstance(pigments, str):
@@ -93,12 +112,14 @@ def plan(
     request = {
         "black": black,
         "swatches": swatches,
+        "minutes": minutes,
+        "minutes_each": minutes_each,
         "grams": grams,
         "balance": balance,
         "noise": None if noise is None else ",".join(str(error) for error in noise),
     }
     native = None if prior is None else prior._native
     form_of = ((first, step, count), replicates)
-    about, form, remarks = _native.plan(list(pigments), white, json.dumps(request), native, form_of)
+    about, files, remarks = _native.plan(list(pigments), white, json.dumps(request), native, form_of)
     warn(warnings_of(remarks))
-    return Plan(json.loads(about), bytes(form))
+    return Plan(json.loads(about), *(bytes(file) for file in files))

@@ -209,6 +209,16 @@ impl CsvRows {
         }
     }
 
+    /// Ignores wavelengths without any reading, as the empty form of a plan has them.
+    pub(super) fn ignore_empty_wavelengths(&mut self) {
+        for (place, column) in self.columns.iter_mut().enumerate() {
+            let is_empty = |row: &CsvRow| row.cells.get(place).is_none_or(str::is_empty);
+            if matches!(column, Column::Wavelength(_)) && self.rows.iter().all(is_empty) {
+                *column = Column::Ignored;
+            }
+        }
+    }
+
     pub(super) fn pigments(&self) -> Vec<String> {
         let names = self.columns.iter().filter_map(|column| match column {
             Column::Pigment(name) => Some(name.clone()),
@@ -222,7 +232,7 @@ impl CsvRows {
         let named = self.headers.iter().zip(&self.columns);
         let ignored: Vec<&str> = named
             .filter(|(name, column)| **column == Column::Ignored && !name.is_empty())
-            .filter(|(name, _)| !excludes_specular(name))
+            .filter(|(name, _)| !is_wavelength_heading(name))
             .map(|(name, _)| name.as_str())
             .collect();
         (!ignored.is_empty())

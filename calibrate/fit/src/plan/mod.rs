@@ -8,8 +8,9 @@
 mod paints;
 mod exchange;
 mod request;
+mod loss;
 
-use documents::{Cancelled, Task};
+use documents::Task;
 use pigment::remark::Remark;
 use pigment::{PigmentId, PigmentLibrary, Recipe};
 use serde_json::{Map, Value, json};
@@ -17,8 +18,9 @@ use serde_json::{Map, Value, json};
 use crate::fit::{ExpectedNoise, unidentified};
 
 pub use exchange::{Information, RelativeDeviation, candidates, optimal, usual, usual_count};
+pub use loss::PlanLoss;
 pub use paints::{MeasurementForm, PaintSet, PlanError, Purpose, SwatchRecipe};
-pub use request::PlanRequest;
+pub use request::{PlanRequest, SwatchCount};
 
 /// We expect this error of an instrument, as a standard deviation of reflectance.
 const INSTRUMENT_ERROR: f64 = 0.002;
@@ -61,7 +63,9 @@ pub struct Plan {
     pub swatches: Vec<PlannedSwatch>,
     /// Predictions of the prior library, or `None` without one.
     pub forecast: Option<Forecast>,
-    /// Warnings about the prior library.
+    /// Loss against the default plan, or `None` if this plan has at least as many swatches.
+    pub loss: Option<PlanLoss>,
+    /// Warnings about the prior library, and the loss in words.
     pub remarks: Vec<Remark>,
 }
 
@@ -96,19 +100,41 @@ pub fn plan<N: AsRef<str>>(
     let paints = paint_set(pigments, white, options)?;
     let weighing = Weighing::new(options.grams, options.balance)?;
     let pool = candidates(&paints, weighing.least_share());
-    let count = options.swatches.unwrap_or_else(|| usual_count(&paints, &pool));
+    let full = usual_count(&paints, &pool);
+    let count = options.count(&paints, full)?;
     let mut design = usual(&paints, &pool, count)?;
+    let mut full = if count < full { Some(usual(&paints, &pool, full)?) } else { None };
     let mut forecast = None;
+    let mut full_deviations = None;
     let mut remarks = Vec::new();
     if let Some(prior) = &options.prior {
         let ids =
             paints.names.iter().map(|name| prior.find(name)).collect::<Result<Vec<_>, _>>()?;
         remarks = reservations(prior, &ids);
-        let (best, prediction) = best_design(prior, (&ids, &pool), &design, options.noise, task)?;
-        (design, forecast) = (best, Some(prediction));
+        let noise = expected_noise(prior, options.noise);
+        let information = Information::new(prior, &ids, &pool, noise);
+        // The first swatch of the usual design is the white alone, which every plan must contain.
+        let best = optimal(&information, &design, 1, task)?;
+        forecast = Some(Forecast {
+            usual_efficiency: information.efficiency(&design, &best),
+            deviations: information.deviations(&best),
+            usual_deviations: information.deviations(&design),
+            noise,
+        });
+        if let Some(full) = &mut full {
+            *full = optimal(&information, full, 1, task)?;
+            full_deviations = Some(information.deviations(full));
+        }
+        design = best;
     }
     let recipes: Vec<SwatchRecipe> = design.iter().map(|&index| pool[index].clone()).collect();
     check_identified(&paints, &recipes)?;
+    let loss = full.map(|full| PlanLoss::of(&paints, &recipes, full.iter().map(|&i| &pool[i])));
+    let loss = loss.map(|loss| PlanLoss { full_deviations, ..loss });
+    if let Some(loss) = &loss {
+        let deviations = forecast.as_ref().map(|forecast| forecast.deviations.as_slice());
+        remarks.push(Remark::warning(loss.text(&paints, deviations)));
+    }
     let width = recipes.len().to_string().len().max(2);
     let swatches = recipes
         .into_iter()
@@ -119,7 +145,7 @@ pub fn plan<N: AsRef<str>>(
             recipe,
         })
         .collect();
-    Ok(Plan { paints, swatches, forecast, remarks })
+    Ok(Plan { paints, swatches, forecast, loss, remarks })
 }
 
 impl PlanRequest {
@@ -135,6 +161,37 @@ impl PlanRequest {
     ) -> Result<Plan, PlanError> {
         plan(pigments, white, self, task)
     }
+
+    /// Number of swatches, where the default plan has `full`.
+    fn count(&self, paints: &PaintSet, full: usize) -> Result<usize, PlanError> {
+        let least = paints.unknowns();
+        let Some(minutes) = self.minutes else {
+            return Ok(match self.swatches {
+                None => full,
+                Some(SwatchCount::Number(count)) => count,
+                Some(SwatchCount::Fewest) => least,
+            });
+        };
+        if self.swatches.is_some() {
+            return Err(PlanError::CountAndTime);
+        }
+        let each = self.minutes_each;
+        positive("the time for a swatch", each, "try [minutes_each=10]")?;
+        positive("the time for all swatches", minutes, "try [minutes=240]")?;
+        // Rounding must not cost a swatch.
+        let fitting = (minutes / each * (1.0 + 1e-12)).floor();
+        if fitting < least as f64 {
+            return Err(PlanError::Time { least, needed: least as f64 * each, each, minutes });
+        }
+        Ok((fitting as usize).min(full))
+    }
+}
+
+fn positive(what: &'static str, value: f64, example: &'static str) -> Result<(), PlanError> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(());
+    }
+    Err(PlanError::NotPositive { what, example, value })
 }
 
 impl Plan {
@@ -153,6 +210,26 @@ impl Plan {
     pub fn form(&self, form: &MeasurementForm) -> Vec<u8> {
         let swatches = self.swatches.iter().map(|swatch| (swatch.name.as_str(), &swatch.grams));
         form.csv(&self.paints, swatches)
+    }
+
+    /// The recipes of the readings of [`Self::form`] (CSV), for an instrument that writes files. You give
+    /// each reading the name in the column `reading`, and pass this file to
+    /// [`Readings::with_recipes`](crate::Readings::with_recipes).
+    ///
+    /// ```
+    /// use calibrate::plan::{MeasurementForm, PlanRequest};
+    ///
+    /// let plan = calibrate::plan(&["Viridian"], "White", &PlanRequest::default(), &documents::Task::default())?;
+    /// let recipes = String::from_utf8_lossy(&plan.recipes(&MeasurementForm::default())).into_owned();
+    /// let mut rows = recipes.lines();
+    /// assert_eq!(rows.next(), Some("sample,film,backing,reading,White,Viridian"));
+    /// assert_eq!(rows.nth(4), Some("01 White masstone,paint,white,01 white 1,10,"));
+    /// # Ok::<(), calibrate::plan::PlanError>(())
+    /// ```
+    #[must_use]
+    pub fn recipes(&self, form: &MeasurementForm) -> Vec<u8> {
+        let swatches = self.swatches.iter().map(|swatch| (swatch.name.as_str(), &swatch.grams));
+        form.recipes(&self.paints, swatches)
     }
 }
 
@@ -185,27 +262,11 @@ fn reservations(prior: &PigmentLibrary, ids: &[PigmentId]) -> Vec<Remark> {
     }).collect()
 }
 
-/// The design of greatest information by `prior`, and its predictions.
-fn best_design(
-    prior: &PigmentLibrary,
-    (ids, pool): (&[PigmentId], &[SwatchRecipe]),
-    usual: &[usize],
-    noise: Option<ExpectedNoise>,
-    task: &Task,
-) -> Result<(Vec<usize>, Forecast), Cancelled> {
+/// The noise that you expect, else the noise that the evidence of `prior` suggests.
+fn expected_noise(prior: &PigmentLibrary, noise: Option<ExpectedNoise>) -> ExpectedNoise {
     let left = prior.evidence.as_ref();
     let left = left.map_or(MIXING_ERROR, |evidence| evidence.rms.max(LEAST_MIXING_ERROR));
-    let noise = noise.unwrap_or(ExpectedNoise { constant: INSTRUMENT_ERROR, even: left });
-    let information = Information::new(prior, ids, pool, noise);
-    // The first swatch of the usual design is the white alone, which every plan must contain.
-    let design = optimal(&information, usual, 1, task)?;
-    let forecast = Forecast {
-        usual_efficiency: information.efficiency(usual, &design),
-        deviations: information.deviations(&design),
-        usual_deviations: information.deviations(usual),
-        noise,
-    };
-    Ok((design, forecast))
+    noise.unwrap_or(ExpectedNoise { constant: INSTRUMENT_ERROR, even: left })
 }
 
 /// Refuses a plan if a fit would not identify every pigment.
@@ -243,11 +304,9 @@ impl Weighing {
     /// [`PlanError::Grams`] if 1 part in 5 cannot be weighed to 1 %, [`PlanError::NotPositive`] unless
     /// both are above 0.
     pub fn new(grams: f64, resolution: f64) -> Result<Self, PlanError> {
-        for (what, value) in [("grams a swatch", grams), ("the step of the balance", resolution)] {
-            if !(value.is_finite() && value > 0.0) {
-                return Err(PlanError::NotPositive { what, value });
-            }
-        }
+        let example = "give grams, such as [grams=10] [balance=0.01]";
+        positive("grams a swatch", grams, example)?;
+        positive("the step of the balance", resolution, example)?;
         let needed = STEPS * resolution / NEEDED_SHARE;
         if grams < needed * (1.0 - 1e-9) {
             return Err(PlanError::Grams { needed, resolution, grams });
@@ -278,7 +337,8 @@ impl Weighing {
 
 impl Plan {
     /// The plan as JSON: `swatches` (sample, purpose, parts, grams, why), `totals_g` by paint, the
-    /// `unknowns` of a wavelength, `identified`, and the forecast of the `prior` library, null without one.
+    /// `unknowns` of a wavelength, `identified`, the forecast of the `prior` library (null without one), and
+    /// the `loss` against the default plan (null if there is none).
     #[must_use]
     pub fn to_json(&self) -> Value {
         let swatches: Vec<Value> = self.swatches.iter().map(|s| self.swatch_json(s)).collect();
@@ -290,6 +350,7 @@ impl Plan {
             "unknowns": self.paints.unknowns(),
             "identified": true,
             "prior": self.forecast.as_ref().map(|forecast| self.forecast_json(forecast)),
+            "loss": self.loss.as_ref().map(|loss| self.loss_json(loss)),
         })
     }
 
@@ -312,22 +373,36 @@ impl Plan {
     }
 
     fn forecast_json(&self, forecast: &Forecast) -> Value {
-        let of = |deviations: &[RelativeDeviation]| -> Map<String, Value> {
-            let pairs = self.paints.ids().zip(deviations).map(|(paint, deviation)| {
-                let pair = json!({
-                    "absorption": deviation.absorption,
-                    "scattering": deviation.scattering,
-                });
-                (self.name(paint), pair)
-            });
-            pairs.collect()
-        };
         json!({
             "usual_efficiency": forecast.usual_efficiency,
             "noise": {"constant": forecast.noise.constant, "even": forecast.noise.even},
-            "relative_deviations": of(&forecast.deviations),
-            "usual_relative_deviations": of(&forecast.usual_deviations),
+            "relative_deviations": self.deviations_json(&forecast.deviations),
+            "usual_relative_deviations": self.deviations_json(&forecast.usual_deviations),
         })
+    }
+
+    fn loss_json(&self, loss: &PlanLoss) -> Value {
+        let left_out = loss.left_out.iter();
+        let left_out = left_out.map(|(purpose, count)| (purpose.word().to_owned(), json!(count)));
+        json!({
+            "full_swatches": loss.full,
+            "spare_swatches": loss.spare,
+            "left_out": left_out.collect::<Map<String, Value>>(),
+            "full_relative_deviations":
+                loss.full_deviations.as_ref().map(|deviations| self.deviations_json(deviations)),
+        })
+    }
+
+    /// Deviations of K and S by paint.
+    fn deviations_json(&self, deviations: &[RelativeDeviation]) -> Map<String, Value> {
+        let pairs = self.paints.ids().zip(deviations).map(|(paint, deviation)| {
+            let pair = json!({
+                "absorption": deviation.absorption,
+                "scattering": deviation.scattering,
+            });
+            (self.name(paint), pair)
+        });
+        pairs.collect()
     }
 }
 

@@ -186,24 +186,53 @@ impl MeasurementForm {
         paints: &PaintSet,
         swatches: impl IntoIterator<Item = (&'a str, &'a Recipe)>,
     ) -> Vec<u8> {
+        let wavelengths = self.grid.wavelengths_nm().map(|nm| nm.to_string());
+        self.rows("replicate", paints, swatches, &wavelengths.collect::<Vec<_>>(), |row| {
+            row.replicate.to_string()
+        })
+    }
+
+    /// Writes the recipes without readings: one row for each reading of [`Self::csv`], with the name that
+    /// you give it in the program of the instrument.
+    pub(super) fn recipes<'a>(
+        &self,
+        paints: &PaintSet,
+        swatches: impl IntoIterator<Item = (&'a str, &'a Recipe)>,
+    ) -> Vec<u8> {
+        self.rows("reading", paints, swatches, &[], |row| {
+            // The number of a sample is enough to type.
+            let short = row.sample.split(' ').next().unwrap_or(row.sample);
+            let name = format!("{short} {}", row.backing);
+            if self.replicates == 1 { name } else { format!("{name} {}", row.replicate) }
+        })
+    }
+
+    fn rows<'a>(
+        &self,
+        fourth: &str,
+        paints: &PaintSet,
+        swatches: impl IntoIterator<Item = (&'a str, &'a Recipe)>,
+        wavelengths: &[String],
+        fourth_of: impl Fn(FormRow<'_>) -> String,
+    ) -> Vec<u8> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         let mut write = |record: Vec<String>| {
             writer.write_record(&record).expect("rows have one length, and memory can be written");
         };
-        let fixed = ["sample", "film", "backing", "replicate"].map(str::to_owned);
-        let wavelengths = self.grid.wavelengths_nm().map(|nm| nm.to_string());
-        write(fixed.into_iter().chain(paints.names.iter().cloned()).chain(wavelengths).collect());
+        let fixed = ["sample", "film", "backing", fourth].map(str::to_owned);
+        let names = paints.names.iter().chain(wavelengths).cloned();
+        write(fixed.into_iter().chain(names).collect());
         let card = Recipe::default();
         let films = std::iter::once(("card", "none", &card))
             .chain(swatches.into_iter().map(|(sample, grams)| (sample, "paint", grams)));
         for (sample, film, grams) in films {
             for backing in BACKINGS {
                 for replicate in 1..=self.replicates {
-                    let mut row = vec![String::new(); paints.names.len() + self.grid.count() + 4];
+                    let mut row = vec![String::new(); 4 + paints.names.len() + wavelengths.len()];
                     row[0] = sample.to_owned();
                     row[1] = film.to_owned();
                     row[2] = backing.to_owned();
-                    row[3] = replicate.to_string();
+                    row[3] = fourth_of(FormRow { sample, backing, replicate });
                     for (paint, grams) in grams {
                         row[4 + paint.index()] = grams.to_string();
                     }
@@ -213,6 +242,14 @@ impl MeasurementForm {
         }
         writer.into_inner().expect("memory can be written")
     }
+}
+
+/// One reading of a form.
+#[derive(Clone, Copy)]
+struct FormRow<'a> {
+    sample: &'a str,
+    backing: &'a str,
+    replicate: usize,
 }
 
 /// A plan that cannot be made.
@@ -250,6 +287,25 @@ pub enum PlanError {
         /// Number of swatches that was requested.
         swatches: usize,
     },
+    /// The number of swatches is given twice, as a number and as a time.
+    #[error("a number of swatches and a time for them exclude each other")]
+    #[hint("leave out [swatches] or [minutes]")]
+    CountAndTime,
+    /// The time is not enough for as many swatches as there are unknowns.
+    #[error(
+        "{least} swatches, the fewest for these paints, take {needed} minutes at {each} minutes each, found `{minutes}`"
+    )]
+    #[hint("try [minutes={needed}], or plan for fewer pigments")]
+    Time {
+        /// Least number of swatches: one for each unknown of a wavelength.
+        least: usize,
+        /// Minutes that they take.
+        needed: f64,
+        /// Minutes for one swatch.
+        each: f64,
+        /// Minutes that were requested.
+        minutes: f64,
+    },
     /// The mass of a swatch is too small for the balance: a tint of 1 to 4 cannot be weighed.
     #[error(
         "a tint of 1 to 4 needs {needed} g a swatch on a balance that shows {resolution} g, found `{grams}`"
@@ -265,10 +321,12 @@ pub enum PlanError {
     },
     /// A number is not above 0.
     #[error("{what} must be above 0 and finite, found `{value}`")]
-    #[hint("give grams, such as [grams=10] [balance=0.01]")]
+    #[hint("{example}")]
     NotPositive {
         /// Name of the quantity.
         what: &'static str,
+        /// Hint with possible values.
+        example: &'static str,
         /// Value that was given.
         value: f64,
     },

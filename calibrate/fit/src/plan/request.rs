@@ -16,9 +16,15 @@ use crate::fit::ExpectedNoise;
 pub struct PlanRequest {
     /// A black, for shades
     pub black: Option<String>,
-    /// Number of swatches [default: masstones, two tints each, a shade each with a black, and one
-    /// cross each]
-    pub swatches: Option<usize>,
+    /// Number of swatches, or `fewest` for one swatch per unknown [default: masstones, two tints each, a
+    /// shade each with a black, and one cross each]
+    #[serde(deserialize_with = "read_count")]
+    #[schemars(schema_with = "count_schema")]
+    pub swatches: Option<SwatchCount>,
+    /// Time in minutes for all swatches: plan as many as fit in it, up to the default number
+    pub minutes: Option<f64>,
+    /// Time in minutes to weigh, mix, lay and read one swatch, by which `minutes` counts
+    pub minutes_each: f64,
     /// Grams of paint per swatch
     pub grams: f64,
     /// Smallest step of the balance in grams; no part is smaller than fifty steps, so that each is
@@ -39,8 +45,57 @@ pub struct PlanRequest {
 
 impl Default for PlanRequest {
     fn default() -> Self {
-        Self { black: None, swatches: None, grams: 10.0, balance: 0.01, noise: None, prior: None }
+        Self {
+            black: None,
+            swatches: None,
+            minutes: None,
+            minutes_each: 10.0,
+            grams: 10.0,
+            balance: 0.01,
+            noise: None,
+            prior: None,
+        }
     }
+}
+
+/// Number of swatches that you want.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SwatchCount {
+    /// This many.
+    Number(usize),
+    /// One for each unknown of a wavelength, see [`PaintSet::unknowns`](super::PaintSet::unknowns).
+    Fewest,
+}
+
+impl Serialize for SwatchCount {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Number(count) => count.serialize(serializer),
+            Self::Fewest => FEWEST.serialize(serializer),
+        }
+    }
+}
+
+const FEWEST: &str = "fewest";
+
+fn read_count<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<SwatchCount>, D::Error> {
+    from_text(deserializer, |text| match text {
+        FEWEST => Ok(Some(SwatchCount::Fewest)),
+        text => text.parse().map(|count| Some(SwatchCount::Number(count))).map_err(|_| {
+            let reason = format!("takes a whole number or {FEWEST}, found `{text}`");
+            RequestError::value(reason, "try [swatches=20] or [swatches=fewest]")
+        }),
+    })
+}
+
+fn count_schema(_: &mut SchemaGenerator) -> Schema {
+    json_schema!({
+        "anyOf": [
+            { "type": "string" },
+            { "type": "integer", "minimum": 0 },
+            { "type": "null" },
+        ]
+    })
 }
 
 fn write_noise<S: Serializer>(

@@ -452,11 +452,15 @@ pub enum CurationError {
     /// K and S were fitted with different surfaces or film models.
     #[error("{file}: {what} differs, {wanted} in {first}, found `{found}`")]
     #[hint(
-        "K and S are valid only with the surface they were fitted with; fit both libraries with the same [saunderson], or assume the surface of the first for both: [any_surface]"
+        "K and S are valid only with the surface they were fitted with; fit {refit} again with [surface_of={kept}], or assume the surface of the first for both: [any_surface]"
     )]
     Surface {
         /// Name of the property that differs.
         what: &'static str,
+        /// File of the library that is easiest to fit again: the one with the greater k1.
+        refit: String,
+        /// File of the other library, whose surface the fit takes.
+        kept: String,
         /// File of the first library.
         first: String,
         /// Value in the first library.

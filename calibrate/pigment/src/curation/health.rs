@@ -126,9 +126,16 @@ fn of_library(library: &PigmentLibrary) -> Vec<Finding> {
         found(Severity::Warning, what);
     }
     for (what, text) in [("licence", &library.licence), ("source", &library.source)] {
-        if text.trim().is_empty() {
+        if is_not_stated(text) {
             found(Severity::Warning, format!("no {what} is stated"));
         }
+    }
+    if !states_geometry(library) {
+        let what = "the geometry of the instrument is not stated (d:8 or 45:0, in the source)";
+        found(Severity::Warning, what.to_owned());
+    }
+    if library.inputs.is_empty() {
+        found(Severity::Warning, "no measurement file is stated".to_owned());
     }
     let white = library.reference_id().map(|id| &library[id]);
     match (library.amounts, white) {
@@ -156,6 +163,31 @@ fn of_library(library: &PigmentLibrary) -> Vec<Finding> {
         Some(_) => {}
     }
     findings
+}
+
+/// Whether a text is empty or has the words of a fit whose options did not state it.
+fn is_not_stated(text: &str) -> bool {
+    let text = text.trim();
+    text.is_empty() || text.eq_ignore_ascii_case("not stated")
+}
+
+/// Words for the geometries of instruments, in upper case.
+const GEOMETRIES: [&str; 14] = [
+    "D:8", "D/8", "8:D", "8/D", "DI:8", "DE:8", "45:0", "45/0", "0:45", "0/45", "SCI", "SCE",
+    "SPHERE", "FIBRE",
+];
+
+/// Whether title, source or a note of a pigment name the geometry of the instrument.
+fn states_geometry(library: &PigmentLibrary) -> bool {
+    let notes = library.pigments.iter().flat_map(|pigment| &pigment.notes);
+    let mut texts = [&library.title, &library.source].into_iter().chain(notes);
+    texts.any(|text| {
+        let plain = text.to_uppercase().replace(['\u{b0}', '*'], "");
+        let is_inside = |c: char| c.is_alphanumeric() || c == ':' || c == '/';
+        let mut words =
+            plain.split(|c: char| !is_inside(c)).map(|word| word.trim_matches([':', '/']));
+        words.any(|word| GEOMETRIES.contains(&word))
+    })
 }
 
 fn of_pigment(library: &PigmentLibrary, pigment: &Pigment, findings: &mut Vec<Finding>) {
@@ -427,5 +459,37 @@ impl<'a> Side<'a> {
         let parts: Recipe = recipe.iter().map(|(name, part)| (self.id(name), *part)).collect();
         let mixture = self.library.mix(parts).expect("parts above 0");
         lab(&self.weights, &mixture.hiding(self.library.saunderson))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn conditions_that_nobody_stated_are_found() {
+        let mut library = PigmentLibrary::van_gogh_oils();
+        for (source, is_stated) in [
+            ("read with a d:8 sphere", true),
+            ("45\u{b0}:0\u{b0}, black backing", true),
+            ("SCI, aperture 8 mm", true),
+            ("Konica CM-700d (SCE)", true),
+            ("samples 145:07 of the archive", false),
+            ("science of paint", false),
+            ("not stated", false),
+        ] {
+            source.clone_into(&mut library.source);
+            assert_eq!(states_geometry(&library), is_stated, "{source}");
+        }
+        let found = |library: &PigmentLibrary| -> Vec<String> {
+            of_library(library).into_iter().map(|finding| finding.what).collect()
+        };
+        assert!(found(&library).contains(&"no source is stated".to_owned()));
+        library.licence = "Not stated ".to_owned();
+        library.inputs.clear();
+        let found = found(&library);
+        for what in ["no licence is stated", "no measurement file is stated"] {
+            assert!(found.contains(&what.to_owned()), "{found:?}");
+        }
     }
 }

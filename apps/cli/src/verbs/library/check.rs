@@ -21,8 +21,9 @@ const WORST: usize = 3;
 ///
 /// Prints each pigment's K and S with their median uncertainty, and warns of an unsuitable grid,
 /// guessed or unidentified pigments, large deviations, curves that jump over wavelength, masstones
-/// as dark as the surface, pigments that look alike, and a missing licence or source. A file that is
-/// not a library, and a library with faults, end with exit status 1.
+/// as dark as the surface, pigments that look alike, and of what is not stated: licence, source,
+/// measurement files, and the geometry of the instrument. A file that is not a library, and a library
+/// with faults, end with exit status 1.
 #[derive(Debug, Args)]
 pub(super) struct Check {
     /// The pigment library (JSON) [default: the one in IMPASTO_LIBRARY, else
