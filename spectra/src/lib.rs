@@ -52,7 +52,7 @@ pub mod optics;
 pub use color_rendering::{ColorFidelity, ColorRendering, ColorRenderingError, RenderingIndex};
 pub use color_temperature::ColorTemperature;
 pub use grid::{Grid, GridError, Wavelength, WavelengthError};
-pub use illuminant::{Illuminant, IlluminantError, Observer, ObserverError};
+pub use illuminant::{Illuminant, IlluminantError, MeasuredLamp, Observer, ObserverError};
 pub use instrument::{open as read_spectra, open_spectrum as read_spectrum};
 pub use interpolate::{Extrapolation, InterpolateError, Interpolation};
 pub use light::{

@@ -133,8 +133,8 @@ const NEEDED_NM: [f64; 2] = [420.0, 680.0];
 /// A light from `bytes`, the content of `file`, in any format of [`Format`] or as two columns
 /// `nm, power`. This detects the format from the content.
 ///
-/// Power may be in any unit, at any wavelengths from 420 nm or less to 680 nm or more. Outside them
-/// the end values count. From 360 to 830 nm we set negative power down to -1 % of the peak to 0,
+/// Power may be in any unit, or a number of photons, which we divide by wavelength, at any wavelengths from 420 nm or less to 680 nm or more. Outside them
+/// the end values count. Between them we interpolate by smoothness ([`Illuminant::from_lamp`]). From 360 to 830 nm we set negative power down to -1 % of the peak to 0,
 /// because it is noise. If the file holds several spectra, name one in `spectrum`. The light is
 /// called `file`, or `file#spectrum`.
 ///
@@ -159,11 +159,16 @@ pub fn lamp_from_bytes(
     .spectra;
     let measured = choose_spectrum(file, &spectra, spectrum)?;
     let name = spectrum.map_or_else(|| file.to_owned(), |spectrum| format!("{file}#{spectrum}"));
-    Ok(Illuminant::from_samples(&name, &power(file, measured)?)?)
+    let mut remarks: Vec<String> =
+        measured.remarks.iter().map(|remark| format!("{name}: {remark}")).collect();
+    if measured.quantity == MeasuredQuantity::Photons {
+        remarks.push(format!("{name}: numbers of photons are divided by wavelength to give power"));
+    }
+    Ok(Illuminant::from_lamp(&name, &power(file, measured)?)?.with_remarks(remarks))
 }
 
 fn power(file: &str, measured: &MeasuredSpectrum) -> Result<IrregularSpectrum, LampError> {
-    use MeasuredQuantity::{Power, Reflectance, Unknown, Unstated};
+    use MeasuredQuantity::{Photons, Power, Reflectance, Unknown, Unstated};
     let file = file.to_owned();
     let name = measured.name.clone();
     let found = match measured.quantity {
@@ -171,7 +176,7 @@ fn power(file: &str, measured: &MeasuredSpectrum) -> Result<IrregularSpectrum, L
         stated => stated,
     };
     // Relative power is often exported in arbitrary units.
-    if !matches!(found, Power | Unknown | Unstated) {
+    if !matches!(found, Photons | Power | Unknown | Unstated) {
         return Err(LampError::Quantity { file, name, found });
     }
     let nm = &measured.wavelengths_nm;
@@ -189,7 +194,10 @@ fn power(file: &str, measured: &MeasuredSpectrum) -> Result<IrregularSpectrum, L
     if start_nm > NEEDED_NM[0] || end_nm < NEEDED_NM[1] {
         return Err(LampError::Band { file, start_nm, end_nm });
     }
-    let values = measured.values.iter().map(|power| power.max(0.0)).collect();
+    // A photon has an energy of h c / wavelength. Power is relative, so we leave the constants out.
+    let energy = |nm: f64| if found == Photons { 560.0 / nm } else { 1.0 };
+    let values = nm.iter().zip(&measured.values);
+    let values = values.map(|(&nm, power)| power.max(0.0) * energy(nm)).collect();
     Ok(IrregularSpectrum::new(nm.clone(), values).map_err(IlluminantError::from)?)
 }
 
@@ -212,10 +220,6 @@ pub enum LampError {
     #[hint(
         if *found == MeasuredQuantity::Counts,
         "counts hold the detector's own response: export irradiance, radiance or power"
-    )]
-    #[hint(
-        if *found == MeasuredQuantity::Photons,
-        "export power, or divide each value by its wavelength and name the column `power`"
     )]
     #[hint(
         "a lamp is a spectrum of power, irradiance or radiance; a reflectance is seen under one"
@@ -426,6 +430,18 @@ mod tests {
         assert_eq!((at(&shop, 400), shop.name()), (3.0, "l#shop"));
         let error = lamp_from_bytes("l", text, Some("hall")).unwrap_err();
         assert_eq!(error.hint().unwrap().to_string(), "spectra: desk, shop");
+    }
+
+    #[test]
+    fn photons_are_divided_by_wavelength_with_a_remark() {
+        for heading in ["QNTM", "quanta", "umol/m2/s/nm", "PPFD", "photon flux"] {
+            let lamp = lamp(&format!("nm,{heading}\n400,400\n500,500\n700,700\n")).unwrap();
+            let found = [360, 400, 450, 700].map(|nm| at(&lamp, nm));
+            for power in found {
+                assert!((power - 560.0).abs() < 1e-9, "{heading}: {found:?}");
+            }
+            assert!(lamp.remarks()[0].contains("divided by wavelength"), "{:?}", lamp.remarks());
+        }
     }
 
     #[test]

@@ -24,7 +24,7 @@ use crate::request_options::{CommandLine, RequestOptions};
 use spectra::color::{Adaptation, Rgb, RgbSpace, Xyz};
 use spectra::instrument::split_file_and_name;
 use spectra::referencing::{DarkFiles, ReferenceFiles, TileSource};
-use spectra::{Grid, Observer, Reflectance, Spectrum, ViewingNames, light_from_text};
+use spectra::{Grid, Illuminant, Observer, Reflectance, Spectrum, ViewingNames, light_from_text};
 
 /// Options for how measurement files are read.
 #[derive(Debug, Clone, Default, Args)]
@@ -144,25 +144,42 @@ impl CommandLine for ViewingNames {
 }
 
 impl ViewingOptions {
-    pub(crate) fn viewing(&self) -> Result<Viewing> {
+    pub(crate) fn viewing(&self, console: &mut Console<'_>) -> Result<Viewing> {
         let ViewingNames { illuminant, observer } = self.request()?;
-        viewing(&illuminant, &observer)
+        viewing(&illuminant, &observer, console)
     }
 }
 
 /// Reads the light and looks up the observer that the texts of two options name.
-pub(crate) fn viewing(illuminant: &str, observer: &str) -> Result<Viewing> {
-    Ok(Viewing { illuminant: light_from_text(illuminant)?, observer: Observer::named(observer)? })
+pub(crate) fn viewing(
+    illuminant: &str,
+    observer: &str,
+    console: &mut Console<'_>,
+) -> Result<Viewing> {
+    Ok(Viewing { illuminant: light(illuminant, console)?, observer: Observer::named(observer)? })
+}
+
+/// Reads the light that `text` names, and prints remarks on the file of a lamp.
+pub(crate) fn light(text: &str, console: &mut Console<'_>) -> Result<Illuminant> {
+    let light = light_from_text(text)?;
+    for remark in light.remarks() {
+        console.remark(remark)?;
+    }
+    Ok(light)
 }
 
 /// Reads a light with its weight among several, `LIGHT` or `LIGHT=WEIGHT`.
-pub(crate) fn condition(text: &str, observer: &str) -> Result<ViewingCondition> {
+pub(crate) fn condition(
+    text: &str,
+    observer: &str,
+    console: &mut Console<'_>,
+) -> Result<ViewingCondition> {
     let weighted = text.rsplit_once('=').and_then(|(light, weight)| {
         let weight: f64 = weight.parse().ok()?;
         Some((light, weight))
     });
     let (light, weight) = weighted.unwrap_or((text, 1.0));
-    Ok(ViewingCondition { viewing: viewing(light, observer)?, weight })
+    Ok(ViewingCondition { viewing: viewing(light, observer, console)?, weight })
 }
 
 /// Converts a colour to encoded sRGB, adapted from `white` by Bradford's transform.

@@ -91,7 +91,7 @@ impl Color {
         let lights = self
             .illuminant
             .iter()
-            .map(|light| viewing(light, &self.observer))
+            .map(|light| viewing(light, &self.observer, console))
             .collect::<Result<Vec<Viewing>>>()?;
         self.files.iter().try_for_each(|file| refuse_sample(file))?;
         let table = spectra(&self.files, &self.reading, console)?;
