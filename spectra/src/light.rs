@@ -11,8 +11,8 @@ use crate::grid::Grid;
 use crate::illuminant;
 use crate::illuminant::{Illuminant, IlluminantError};
 use crate::instrument::{
-    ChoiceError, Format, InstrumentError, MeasuredQuantity, MeasuredSpectrum, bytes_of,
-    choose_spectrum, read, split_file_and_name, split_file_and_sheet,
+    ChoiceError, FileOptions, Format, InstrumentError, MeasuredQuantity, MeasuredSpectrum,
+    bytes_of, choose_spectrum, read_with, split_file_and_name, split_file_and_sheet,
 };
 use crate::interpolate::Extrapolation;
 use crate::spectrum::IrregularSpectrum;
@@ -34,6 +34,14 @@ use crate::spectrum::IrregularSpectrum;
 /// assert_eq!(bulb.name(), "black body 5600 K");
 /// ```
 pub fn light_from_text(text: &str) -> Result<Illuminant, LightError> {
+    light_from_text_with(text, &FileOptions::default())
+}
+
+/// Returns the light that `text` names, as [`light_from_text`], with what you know about the file of a lamp.
+///
+/// # Errors
+/// [`LightError`] if `text` is none of these, or the file is faulty.
+pub fn light_from_text_with(text: &str, options: &FileOptions) -> Result<Illuminant, LightError> {
     if let Ok(known) = Illuminant::named(text) {
         return Ok(known);
     }
@@ -49,7 +57,7 @@ pub fn light_from_text(text: &str) -> Result<Illuminant, LightError> {
     if !file::is_there(Path::new(split_file_and_sheet(file).0)) {
         return Err(LightError::Unknown(text.to_owned()));
     }
-    Ok(lamp_from_bytes(file, &bytes_of(file)?, spectrum)?)
+    Ok(lamp_from_bytes_with(file, &bytes_of(file)?, spectrum, options)?)
 }
 
 /// A text that does not name a light.
@@ -150,10 +158,26 @@ pub fn lamp_from_bytes(
     bytes: &[u8],
     spectrum: Option<&str>,
 ) -> Result<Illuminant, LampError> {
-    let spectra = match read(file, bytes, None) {
+    lamp_from_bytes_with(file, bytes, spectrum, &FileOptions::default())
+}
+
+/// A light from `bytes`, the content of `file`, as [`lamp_from_bytes`], with what you know about the file.
+///
+/// # Errors
+/// [`LampError`] if the file is faulty or does not hold exactly one such spectrum of power.
+pub fn lamp_from_bytes_with(
+    file: &str,
+    bytes: &[u8],
+    spectrum: Option<&str>,
+    options: &FileOptions,
+) -> Result<Illuminant, LampError> {
+    let spectra = match read_with(file, bytes, options) {
         // Very short files are not recognised as columns. Reading them as such gives a better
         // error.
-        Err(InstrumentError::Unrecognised(..)) => read(file, bytes, Some(Format::Columns)),
+        Err(InstrumentError::Unrecognised(..)) => {
+            let format = Some(Format::Columns);
+            read_with(file, bytes, &FileOptions { format, ..options.clone() })
+        }
         known => known,
     }?
     .spectra;
@@ -222,7 +246,7 @@ pub enum LampError {
         "counts hold the detector's own response: export irradiance, radiance or power"
     )]
     #[hint(
-        "a lamp is a spectrum of power, irradiance or radiance; a reflectance is seen under one"
+        "a lamp is a spectrum of power, irradiance or radiance; a reflectance is seen under one; if the heading misleads, set [values=power]"
     )]
     Quantity {
         /// Path of the file.

@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use crate::console::Console;
 use crate::csv_rows::{TableColors, rounded};
 use crate::failure::{Failure, Result};
-use crate::readings::{ReadingOptions, remark_coverage, spectra, viewing};
+use crate::readings::{ReadingOptions, remark_color, spectra, viewing};
 use spectra::TristimulusWeights;
 use spectra::color::{
     Adaptation, ColorDifferences, Lab, Rgb, RgbSpace, RgbSpace as ColorTableRgbSpace, Whiteness,
@@ -95,7 +95,7 @@ impl Color {
             .collect::<Result<Vec<Viewing>>>()?;
         self.files.iter().try_for_each(|file| refuse_sample(file))?;
         let table = spectra(&self.files, &self.reading, console)?;
-        remark_coverage(table.grid, console)?;
+        remark_color(table.grid, console)?;
         let weights = lights
             .iter()
             .map(|viewing| viewing.weights(table.grid))

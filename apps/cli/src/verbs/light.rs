@@ -6,7 +6,7 @@ use spectra::{ColorRendering, Grid, Illuminant, Interpolation, Observer, Tristim
 
 use crate::console::Console;
 use crate::failure::Result;
-use crate::readings;
+use crate::readings::{self, KnownOptions};
 
 /// Describe lights: chromaticity, colour temperature and colour rendering
 ///
@@ -20,6 +20,8 @@ pub(crate) struct Light {
     /// FILE#NAME for one of several spectra, or lines `nm,power`)
     #[arg(required = true, value_name = "LIGHT")]
     lights: Vec<String>,
+    #[command(flatten)]
+    known: KnownOptions,
     /// Print also R1 to R14, and Rf by 16 bins of hue
     #[arg(long)]
     samples: bool,
@@ -38,11 +40,12 @@ const R9: usize = 8;
 
 impl Light {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
+        let known = self.known.options(console)?;
         let lights = self
             .lights
             .iter()
             .map(|text| {
-                let light = readings::light(text, console)?;
+                let light = readings::light(text, &known, console)?;
                 let rendering = ColorRendering::of(&light)?;
                 console.warnings(&rendering.remarks)?;
                 Ok(Described { xy: chromaticity(&light)?, light, rendering })

@@ -88,6 +88,8 @@ class Readings:
         format: str | None,
         percent: bool | None,
         transmittance: bool,
+        values: str | None,
+        wavelengths: str | list[float] | None,
         references: tuple[str, list[str], str | None] | None,
         spectra_only: bool,
     ) -> Readings: ...

@@ -80,7 +80,8 @@ impl MeasurementTable {
         let mut remarks = if spectra_only { Vec::new() } else { table.remarks() };
         remarks.extend(table.left_out.clone());
         remarks.extend(dark);
-        Ok(Self { pigments, grid, resampled_from, scale, readings, remarks })
+        let geometry = table.geometry();
+        Ok(Self { pigments, grid, resampled_from, scale, geometry, readings, remarks })
     }
 }
 

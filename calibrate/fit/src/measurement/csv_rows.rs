@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use spectra::csv_table::{CellPlace, CsvTableError, RowNumbers};
-use spectra::instrument::FileText;
+use spectra::instrument::{FileText, StatedGeometry};
 
 use super::column::{
     Column, CsvRow, HeadingRow, TableKind, columns, excludes_specular, filled_column,
@@ -291,6 +291,19 @@ impl CsvRows {
         Ok(Reading { amounts: amounts.into(), reflectance: reflectance.into(), ..reading })
     }
 
+    /// The geometry that all headings of wavelengths name, as in `SCE 400nm`.
+    pub(super) fn geometry(&self) -> Option<StatedGeometry> {
+        let headings = self.headers.iter().zip(&self.columns);
+        let mut of_readings = headings
+            .filter(|(_, column)| matches!(column, Column::Wavelength(_)))
+            .map(|(heading, _)| StatedGeometry::of_words(heading));
+        let first = of_readings.next()??;
+        let agree = of_readings.all(|other| {
+            other.is_some_and(|other| other.includes_specular == first.includes_specular)
+        });
+        agree.then_some(first)
+    }
+
     /// Converts the readings to fractions, and returns the unit that they had, with a remark on dark ones.
     pub(super) fn scaled(
         &self,
@@ -300,6 +313,14 @@ impl CsvRows {
         let mut remark = None;
         let scale = match choice {
             ScaleChoice::Known(scale) => scale,
+            ScaleChoice::Converted(values) => {
+                if let Some((reflectance, words)) = values.conversion() {
+                    let all = readings.iter_mut().flat_map(|r| r.reflectance.iter_mut());
+                    all.for_each(|value| *value = reflectance(*value));
+                    remark = Some(words.to_owned());
+                }
+                Scale::Fraction
+            }
             ScaleChoice::ByFile => {
                 let scale = Scale::of_largest(readings.iter().map(largest).fold(0.0, f64::max));
                 if scale == Scale::Percent {

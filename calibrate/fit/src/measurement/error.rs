@@ -69,7 +69,9 @@ pub enum MeasurementError {
     },
     /// A header is a number outside the wavelengths at which paint is measured.
     #[error("{0} is not a wavelength from 200 to 2500 nm")]
-    #[hint("a pigment's name must not be a number")]
+    #[hint(
+        "a pigment's name must not be a number; if the file holds values only, name their wavelengths: [wavelengths=380..730:10]"
+    )]
     WavelengthRange(CellPlace),
     /// A reading is negative or far above white.
     #[error("{place}: expected a reflectance {range}, found `{value}`")]
@@ -290,7 +292,17 @@ pub enum MeasurementError {
         if *quantity == MeasuredQuantity::Transmittance,
         "if it was read over a white tile, set [as_reflectance]"
     )]
-    #[hint("export reflectance from the instrument's program")]
+    #[hint(
+        if *quantity == MeasuredQuantity::Absorbance,
+        "if it is the absorbance of a reflectance, set [values=absorbance]; if the heading misleads, [values=reflectance]"
+    )]
+    #[hint(
+        if *quantity == MeasuredQuantity::KubelkaMunk,
+        "to turn K/S into reflectance, set [values=k/s]; if the heading misleads, [values=reflectance]"
+    )]
+    #[hint(
+        "export reflectance from the instrument's program; if the heading misleads, set [values=reflectance]"
+    )]
     NoReflectance {
         /// File name as the caller gave it.
         file: String,
