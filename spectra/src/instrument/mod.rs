@@ -6,9 +6,8 @@
 mod quantity;
 mod measured;
 mod points;
-mod stated;
 mod decode;
-mod bare_values;
+mod stated;
 mod columns;
 mod avantes;
 mod field_spectrometers;
@@ -23,13 +22,11 @@ mod workbook;
 mod cxf;
 mod format;
 mod read;
-mod geometry;
 
 pub use cxf::{CxfHead, write_cxf};
 pub use decode::decode_text;
 pub use documents::file::split_file_and_sheet;
 pub use format::{FileText, Format};
-pub use geometry::StatedGeometry;
 pub use measured::{
     ChoiceError, InstrumentError, MeasuredSpectrum, ReflectanceError, Role, Unit, choose_spectrum,
     split_file_and_name,
@@ -39,4 +36,4 @@ pub use read::{
     FileOptions, InstrumentFile, OpenError, OpenedSpectrum, bytes_of, open, open_spectrum, read,
     read_with,
 };
-pub use stated::StatedValues;
+pub use stated::{StatedGeometry, StatedValues};

@@ -9,10 +9,9 @@ use super::format::{ContentKind, FileText, Format};
 use super::measured::{
     ChoiceError, InstrumentError, MeasuredSpectrum, choose_spectrum, split_file_and_name,
 };
-use super::stated::StatedValues;
+use super::stated::{StatedValues, bare_values};
 use super::{
-    avantes, bare_values, cgats, columns, cxf, field_spectrometers, jcamp, light_meters,
-    ocean_optics, qtx,
+    avantes, cgats, columns, cxf, field_spectrometers, jcamp, light_meters, ocean_optics, qtx,
 };
 
 /// The content of an instrument's file.
@@ -329,5 +328,17 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_file_that_names_its_instrument_states_its_geometry() {
+        let text = "CGATS.17\nORIGINATOR \"i1Pro lab\"\nINSTRUMENTATION \"i1Pro\"\n\
+            NUMBER_OF_FIELDS 4\nBEGIN_DATA_FORMAT\nSAMPLE_ID SPEC_400 SPEC_500 SPEC_600\n\
+            END_DATA_FORMAT\nNUMBER_OF_SETS 1\nBEGIN_DATA\nA 0.1 0.2 0.3\nEND_DATA\n";
+        let of =
+            |text: &str| read("f", text.as_bytes(), None).unwrap().spectra[0].stated_geometry();
+        assert_eq!(of(text).unwrap().words, "i1Pro");
+        // Who measured says nothing.
+        assert_eq!(of(&text.replace("INSTRUMENTATION \"i1Pro\"", "DESCRIPTOR \"i1Pro\"")), None);
     }
 }

@@ -1,10 +1,10 @@
 //! Values without wavelengths, for which you state the wavelengths: one spectrum a row behind its name, one a
 //! column below its title (as in the spectral library of the USGS), or one list of all values.
 
-use super::decode::{Decimal, lines, number};
-use super::measured::{InstrumentError, MeasuredSpectrum, Role, Unit, stem};
-use super::points::{Duplicates, Point, ordered};
-use super::quantity::{MeasuredQuantity, states_percent};
+use crate::instrument::decode::{Decimal, lines, number};
+use crate::instrument::measured::{InstrumentError, MeasuredSpectrum, Role, Unit, stem};
+use crate::instrument::points::{Duplicates, Point, ordered};
+use crate::instrument::quantity::{MeasuredQuantity, states_percent};
 
 /// A value as large as this stands for a channel without one: the USGS writes -1.23e34.
 const MISSING: f64 = 1e30;
@@ -56,7 +56,7 @@ impl<'a> Line<'a> {
 }
 
 /// Reads the spectra in `text`, each with one value for each of `nm`, which rise or fall throughout.
-pub(super) fn read(
+pub(in super::super) fn read(
     file: &str,
     text: &str,
     nm: &[f64],

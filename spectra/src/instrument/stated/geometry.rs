@@ -1,6 +1,6 @@
 //! Whether readings hold the specular reflection, by the instrument or the geometry that a file names.
 
-use super::measured::MeasuredSpectrum;
+use crate::instrument::measured::MeasuredSpectrum;
 
 /// Instruments that light a sample at 45 degrees and measure at 0, in letters and digits only.
 const OF_45_0: [&str; 17] = [
@@ -93,7 +93,6 @@ impl MeasuredSpectrum {
 
 #[cfg(test)]
 mod tests {
-    use super::super::read::read;
     use super::*;
 
     #[test]
@@ -118,17 +117,5 @@ mod tests {
             let found = StatedGeometry::of_words(text).map(|found| found.includes_specular);
             assert_eq!(found, wanted, "{text}");
         }
-    }
-
-    #[test]
-    fn a_file_that_names_its_instrument_states_its_geometry() {
-        let text = "CGATS.17\nORIGINATOR \"i1Pro lab\"\nINSTRUMENTATION \"i1Pro\"\n\
-            NUMBER_OF_FIELDS 4\nBEGIN_DATA_FORMAT\nSAMPLE_ID SPEC_400 SPEC_500 SPEC_600\n\
-            END_DATA_FORMAT\nNUMBER_OF_SETS 1\nBEGIN_DATA\nA 0.1 0.2 0.3\nEND_DATA\n";
-        let of =
-            |text: &str| read("f", text.as_bytes(), None).unwrap().spectra[0].stated_geometry();
-        assert_eq!(of(text).unwrap().words, "i1Pro");
-        // Who measured says nothing.
-        assert_eq!(of(&text.replace("INSTRUMENTATION \"i1Pro\"", "DESCRIPTOR \"i1Pro\"")), None);
     }
 }

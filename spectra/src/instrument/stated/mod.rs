@@ -1,4 +1,10 @@
-//! What you know about a file that does not say it, or says it wrongly: the quantity of its values.
+//! What you know about a file that does not say it, or says it wrongly: the quantity of its values and their
+//! wavelengths. Also what a file states of the geometry of its instrument.
+
+pub(super) mod bare_values;
+mod geometry;
+
+pub use geometry::StatedGeometry;
 
 use super::measured::{MeasuredSpectrum, Role, Unit};
 use super::quantity::MeasuredQuantity;
