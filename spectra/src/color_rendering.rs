@@ -40,7 +40,13 @@ pub struct ColorRendering {
     pub index: RenderingIndex,
     /// Fidelity and gamut of TM-30.
     pub fidelity: ColorFidelity,
+    /// Doubts about the figures, as messages for the user.
+    pub remarks: Vec<String>,
 }
+
+/// Lamps measured at this step in nm or coarser are not sampled well enough for colour rendering. Both
+/// standards ask for 5 nm or finer.
+const COARSE_NM: f64 = 9.5;
 
 impl ColorRendering {
     /// Colour rendering of `light`. If you did not measure the lamp at some wavelengths, the
@@ -61,8 +67,25 @@ impl ColorRendering {
             temperature,
             index: RenderingIndex::of(light, kelvin)?,
             fidelity: ColorFidelity::of(light, kelvin)?,
+            remarks: coarse_steps(light).into_iter().collect(),
         })
     }
+}
+
+/// A remark if the lamp was measured at coarse steps. The errors are the largest of the CIE's LEDs and
+/// fluorescent lamps, of which we left out every second or fourth value.
+fn coarse_steps(light: &Illuminant) -> Option<String> {
+    let lamp = light.lamp().filter(|lamp| lamp.step_nm >= COARSE_NM)?;
+    let error = match lamp.is_smooth {
+        true if lamp.step_nm < 15.0 => "by 0.2",
+        true => "by 2",
+        false => "by 10 and more",
+    };
+    Some(format!(
+        "{}: Ra and Rf of a lamp measured every {} nm may be off {error}; the standards ask for 5 nm",
+        light.name(),
+        lamp.step_nm
+    ))
 }
 
 /// A light that has no colour rendering.
@@ -428,6 +451,7 @@ fn complete((_, cells): &(String, Vec<Option<f64>>)) -> Vec<f64> {
 mod tests {
     use super::*;
     use crate::light::{black_body, daylight};
+    use crate::spectrum::IrregularSpectrum;
 
     #[test]
     fn a_reference_renders_perfectly() {
@@ -480,5 +504,70 @@ mod tests {
         });
         let found = ColorRendering::of(&far.unwrap()).unwrap();
         assert!(found.temperature.duv > 6e-3 && !found.index.is_meant(), "{found:?}");
+    }
+
+    /// A lamp as a file of values every `step` nm holds it.
+    fn measured_every(step: f64, lamp: &Illuminant) -> Illuminant {
+        let grid = Grid::from_range(380.0, 780.0, step).unwrap();
+        let power = lamp.power();
+        let linear = |nm| power.at(nm, Interpolation::Linear, Extrapolation::Hold).unwrap();
+        let values = grid.wavelengths_nm().map(linear).collect();
+        let samples = IrregularSpectrum::new(grid.wavelengths_nm().collect(), values).unwrap();
+        Illuminant::from_lamp("lamp", &samples).unwrap()
+    }
+
+    #[test]
+    fn smooth_lamps_keep_their_figures_at_coarse_steps() {
+        // The CIE tabulates LEDs at 5 nm: Sprague's polynomial through their values stands for them.
+        let leds = Illuminant::names().filter(|name| name.starts_with("LED"));
+        let leds = leds.map(|name| measured_every(5.0, &Illuminant::named(name).unwrap()));
+        let bodies = [2000.0, 2856.0, 6500.0].map(|kelvin| black_body(kelvin).unwrap());
+        let lamps: Vec<Illuminant> = bodies.into_iter().chain(leds).collect();
+        assert_eq!(lamps.len(), 12);
+        for (at, lamp) in lamps.iter().enumerate() {
+            let exact = ColorRendering::of(lamp).unwrap();
+            for (step, most) in [(5.0, 0.02), (10.0, 0.15)] {
+                let coarse = measured_every(step, lamp);
+                assert!(coarse.lamp().unwrap().is_smooth, "{at} every {step} nm");
+                let found = ColorRendering::of(&coarse).unwrap();
+                let general = found.index.general - exact.index.general;
+                let fidelity = found.fidelity.fidelity - exact.fidelity.fidelity;
+                let kelvin = found.temperature.kelvin - exact.temperature.kelvin;
+                assert!(general.abs() < most, "{at} every {step} nm: Ra off by {general}");
+                assert!(fidelity.abs() < most, "{at} every {step} nm: Rf off by {fidelity}");
+                assert!(kelvin.abs() < 2.0, "{at} every {step} nm: off by {kelvin} K");
+                assert_eq!(found.remarks.len(), usize::from(step == 10.0), "{:?}", found.remarks);
+            }
+        }
+    }
+
+    #[test]
+    fn lamps_with_lines_are_interpolated_linearly() {
+        let lined = |name: &&str| name.starts_with("FL") || name.starts_with("HP");
+        for name in Illuminant::names().filter(lined) {
+            let lamp = Illuminant::named(name).unwrap();
+            let found = measured_every(5.0, &lamp);
+            assert!(!found.lamp().unwrap().is_smooth, "{name}");
+            let linear = |nm| lamp.power().at(nm, Interpolation::Linear, Extrapolation::Hold);
+            let between = found.power().at(548.0, Interpolation::Linear, Extrapolation::Hold);
+            assert_eq!(between, linear(548.0), "{name}");
+        }
+        let tube = measured_every(10.0, &Illuminant::named("FL11").unwrap());
+        assert!(tube.remarks()[0].contains("linearly"), "{:?}", tube.remarks());
+        let remarks = ColorRendering::of(&tube).unwrap().remarks;
+        assert!(remarks[0].contains("every 10 nm may be off by 10 and more"), "{remarks:?}");
+    }
+
+    #[test]
+    fn wavelengths_that_are_not_regular_take_a_spline() {
+        let nm: Vec<f64> =
+            (0..100).map(|at| 380.0 + 4.0 * f64::from(at) + f64::from(at % 2)).collect();
+        let peak = |nm: f64| (-((nm - 560.0) / 60.0).powi(2)).exp();
+        let values = nm.iter().copied().map(peak).collect();
+        let samples = IrregularSpectrum::new(nm, values).unwrap();
+        let lamp = Illuminant::from_lamp("lamp", &samples).unwrap();
+        assert!(lamp.remarks()[0].contains("cubic spline"), "{:?}", lamp.remarks());
+        let found = lamp.power().at(558.0, Interpolation::Linear, Extrapolation::Hold).unwrap();
+        assert!((found - peak(558.0)).abs() < 1e-5, "{found}");
     }
 }

@@ -7,20 +7,36 @@ use std::sync::OnceLock;
 use documents::hint::Explain;
 
 use crate::grid::Grid;
-use crate::interpolate::Extrapolation;
+use crate::interpolate::{Extrapolation, Interpolation};
 use crate::spectrum::{
     IrregularSpectrum, IrregularSpectrumError, Power, Response, Spectrum, SpectrumError,
 };
 
 /// A light: its name and its relative spectral power at 1 nm on [`Grid::cie`].
 ///
-/// We interpolate tables at coarser steps linearly, because the CIE defines D65 between its 5 nm
-/// values so (CIE 15:2018, section 4). Beyond the ends of a table the end value counts.
+/// We interpolate tables of the CIE at coarser steps linearly, because the CIE defines D65 between its
+/// 5 nm values so (CIE 15:2018, section 4), and measured lamps by their smoothness
+/// ([`Illuminant::from_lamp`]). Beyond the ends of a table the end value counts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Illuminant {
     name: String,
     power: Spectrum<Power>,
+    lamp: Option<MeasuredLamp>,
 }
+
+/// How a lamp was measured, and what was assumed in reading it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredLamp {
+    /// Usual distance of neighbouring wavelengths in nm.
+    pub step_nm: f64,
+    /// Whether the power over wavelength is smooth ([`IrregularSpectrum::is_smooth`]).
+    pub is_smooth: bool,
+    /// Assumptions and corrections, as messages for the user.
+    pub remarks: Vec<String>,
+}
+
+/// Interpolation makes no difference below this step in nm: less than 0.01 in Ra and Rf.
+const FINE_NM: f64 = 2.5;
 
 impl Illuminant {
     /// The CIE illuminant called `name`, ignoring case: A, B, C, D50, D55, D60, D65, D75, E,
@@ -57,6 +73,62 @@ impl Illuminant {
         Self::from_function(name, |nm| samples.at_linear(nm, Extrapolation::Hold).unwrap_or(0.0))
     }
 
+    /// A light from the measured power of a lamp. Between the values we interpolate by Sprague's
+    /// polynomial (CIE 167:2005), or by a cubic spline if the wavelengths are irregular. If the lamp
+    /// is not smooth, e.g. because it has lines, we interpolate linearly. [`MeasuredLamp`] tells which.
+    ///
+    /// # Errors
+    /// [`IlluminantError`] if a power is negative, or all are 0.
+    pub fn from_lamp(name: &str, samples: &IrregularSpectrum) -> Result<Self, IlluminantError> {
+        let step_nm = samples.step_nm();
+        let is_smooth = step_nm >= FINE_NM && within(samples, Grid::cie()).is_smooth();
+        let hold = Extrapolation::Hold;
+        let linear = |nm| samples.at_linear(nm, hold).unwrap_or(0.0);
+        let regular = Grid::through(samples.wavelengths_nm());
+        let (light, method) = match regular {
+            Some(grid) if is_smooth => {
+                let power = Spectrum::<Power>::new(grid, samples.values().to_vec())?;
+                let sprague = |nm| power.at(nm, Interpolation::Sprague, hold).unwrap_or(0.0);
+                let light = Self::from_function(name, |nm| sprague(nm).max(0.0))?;
+                (light, "by Sprague's polynomial, because the lamp is smooth")
+            }
+            None if is_smooth => {
+                let curve = samples.smooth_curve();
+                let light = Self::from_function(name, |nm| {
+                    curve.at(nm).unwrap_or_else(|| linear(nm)).max(0.0)
+                })?;
+                (light, "by a cubic spline, because the lamp is smooth")
+            }
+            _ => (Self::from_samples(name, samples)?, "linearly, because the lamp is not smooth"),
+        };
+        let mut remarks = Vec::new();
+        if step_nm >= FINE_NM {
+            remarks.push(format!("{name}: steps of {step_nm} nm are interpolated {method}"));
+        }
+        Ok(Self { lamp: Some(MeasuredLamp { step_nm, is_smooth, remarks }), ..light })
+    }
+
+    /// The light with further remarks on its measurement, before its own. CIE illuminants keep none.
+    #[must_use]
+    pub(crate) fn with_remarks(mut self, remarks: Vec<String>) -> Self {
+        if let Some(lamp) = &mut self.lamp {
+            lamp.remarks.splice(0..0, remarks);
+        }
+        self
+    }
+
+    /// How the lamp was measured. `None` for lights that are computed or come from a table of the CIE.
+    #[must_use]
+    pub fn lamp(&self) -> Option<&MeasuredLamp> {
+        self.lamp.as_ref()
+    }
+
+    /// Remarks on the measurement of the lamp, as messages for the user.
+    #[must_use]
+    pub fn remarks(&self) -> &[String] {
+        self.lamp.as_ref().map_or(&[], |lamp| &lamp.remarks)
+    }
+
     /// A light from a function of its relative power over the wavelength in nm.
     pub(crate) fn from_function(
         name: &str,
@@ -67,7 +139,7 @@ impl Illuminant {
         if power.values().iter().all(|&v| v == 0.0) {
             return Err(IlluminantError::Dark(name.to_owned()));
         }
-        Ok(Self { name: name.to_owned(), power })
+        Ok(Self { name: name.to_owned(), power, lamp: None })
     }
 
     /// The name of the light.
@@ -81,6 +153,13 @@ impl Illuminant {
     pub fn power(&self) -> &Spectrum<Power> {
         &self.power
     }
+}
+
+/// The values at wavelengths of `band`, or all if it holds none.
+fn within(samples: &IrregularSpectrum, band: Grid) -> IrregularSpectrum {
+    let all = samples.wavelengths_nm().iter().zip(samples.values());
+    let (nm, values) = all.filter(|(nm, _)| band.covers(**nm)).unzip();
+    IrregularSpectrum::new(nm, values).unwrap_or_else(|_| samples.clone())
 }
 
 fn tables() -> &'static [(String, Vec<Option<f64>>)] {

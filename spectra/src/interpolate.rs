@@ -234,9 +234,41 @@ impl<'a> Spline<'a> {
     }
 }
 
+/// Fourth differences of values at a regular step, relative to their second differences (roots of the sums
+/// of squares). You get 0 for a straight line, about 1 to 2.7 for lamps that are smooth at this step, and 3.4
+/// for single lines and for noise. `None` for fewer than eight values.
+pub(crate) fn roughness(values: &[f64]) -> Option<f64> {
+    if values.len() < 8 {
+        return None;
+    }
+    let bends = |values: &[f64]| -> Vec<f64> {
+        values.windows(3).map(|three| three[0] - 2.0 * three[1] + three[2]).collect()
+    };
+    let size = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>().sqrt();
+    let second = bends(values);
+    let fourth = bends(&second);
+    let largest = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    let bend = size(&second);
+    // Rounding bends a straight line by this much.
+    let is_straight = bend <= 1e-9 * largest;
+    Some(if is_straight { 0.0 } else { size(&fourth) / bend })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn roughness_grows_from_lines_by_way_of_peaks_to_spikes() {
+        let ramp: Vec<f64> = (0..20).map(|at| 0.1 * f64::from(at)).collect();
+        let peak = |width: f64| -> Vec<f64> {
+            (-15..=15).map(|at| (-(f64::from(at) / width).powi(2)).exp()).collect()
+        };
+        let found = [ramp, peak(4.0), peak(1.5), peak(0.1)].map(|v| roughness(&v).unwrap());
+        assert!(found[0] == 0.0 && found[3] > 3.4, "{found:?}");
+        assert!(found.is_sorted(), "{found:?}");
+        assert_eq!(roughness(&[1.0; 7]), None);
+    }
 
     #[test]
     fn sprague_is_exact_for_polynomials_of_degree_four_inside() {

@@ -36,6 +36,7 @@
 //!
 //! Modules are ordered by dependence: each uses only modules declared above it.
 mod grid;
+mod wavelength_list;
 mod interpolate;
 mod spectrum;
 pub mod csv_table;
@@ -55,15 +56,16 @@ pub mod optics;
 pub use color_rendering::{ColorFidelity, ColorRendering, ColorRenderingError, RenderingIndex};
 pub use color_temperature::ColorTemperature;
 pub use grid::{Grid, GridError, Wavelength, WavelengthError};
-pub use illuminant::{Illuminant, IlluminantError, Observer, ObserverError};
+pub use illuminant::{Illuminant, IlluminantError, MeasuredLamp, Observer, ObserverError};
 pub use instrument::{open as read_spectra, open_spectrum as read_spectrum};
 pub use interpolate::{Extrapolation, InterpolateError, Interpolation};
 pub use light::{
     LampError, LightError, SECOND_RADIATION_CONSTANT, black_body, daylight, daylight_chromaticity,
-    lamp_from_bytes, light_from_text,
+    lamp_from_bytes, lamp_from_bytes_with, light_from_text, light_from_text_with,
 };
 pub use spectrum::{
     Absorption, IrregularSpectrum, IrregularSpectrumError, Power, Quantity, Reflectance, Response,
     Scattering, Spectrum, SpectrumError,
 };
 pub use viewing::{TristimulusWeights, Viewing, ViewingError, ViewingNames};
+pub use wavelength_list::{WavelengthList, WavelengthListError};

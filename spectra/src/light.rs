@@ -11,8 +11,8 @@ use crate::grid::Grid;
 use crate::illuminant;
 use crate::illuminant::{Illuminant, IlluminantError};
 use crate::instrument::{
-    ChoiceError, Format, InstrumentError, MeasuredQuantity, MeasuredSpectrum, bytes_of,
-    choose_spectrum, read, split_file_and_name, split_file_and_sheet,
+    ChoiceError, FileOptions, Format, InstrumentError, MeasuredQuantity, MeasuredSpectrum,
+    bytes_of, choose_spectrum, read_with, split_file_and_name, split_file_and_sheet,
 };
 use crate::interpolate::Extrapolation;
 use crate::spectrum::IrregularSpectrum;
@@ -34,6 +34,14 @@ use crate::spectrum::IrregularSpectrum;
 /// assert_eq!(bulb.name(), "black body 5600 K");
 /// ```
 pub fn light_from_text(text: &str) -> Result<Illuminant, LightError> {
+    light_from_text_with(text, &FileOptions::default())
+}
+
+/// Returns the light that `text` names, as [`light_from_text`], with what you know about the file of a lamp.
+///
+/// # Errors
+/// [`LightError`] if `text` is none of these, or the file is faulty.
+pub fn light_from_text_with(text: &str, options: &FileOptions) -> Result<Illuminant, LightError> {
     if let Ok(known) = Illuminant::named(text) {
         return Ok(known);
     }
@@ -52,7 +60,7 @@ pub fn light_from_text(text: &str) -> Result<Illuminant, LightError> {
         }
         return Err(LightError::Unknown(text.to_owned()));
     }
-    Ok(lamp_from_bytes(file, &bytes_of(file)?, spectrum)?)
+    Ok(lamp_from_bytes_with(file, &bytes_of(file)?, spectrum, options)?)
 }
 
 /// A text that does not name a light.
@@ -136,8 +144,8 @@ const NEEDED_NM: [f64; 2] = [420.0, 680.0];
 /// A light from `bytes`, the content of `file`, in any format of [`Format`] or as two columns
 /// `nm, power`. This detects the format from the content.
 ///
-/// Power may be in any unit, at any wavelengths from 420 nm or less to 680 nm or more. Outside them
-/// the end values count. From 360 to 830 nm we set negative power down to -1 % of the peak to 0,
+/// Power may be in any unit, or a number of photons, which we divide by wavelength, at any wavelengths from 420 nm or less to 680 nm or more. Outside them
+/// the end values count. Between them we interpolate by smoothness ([`Illuminant::from_lamp`]). From 360 to 830 nm we set negative power down to -1 % of the peak to 0,
 /// because it is noise. If the file holds several spectra, name one in `spectrum`. The light is
 /// called `file`, or `file#spectrum`.
 ///
@@ -153,20 +161,41 @@ pub fn lamp_from_bytes(
     bytes: &[u8],
     spectrum: Option<&str>,
 ) -> Result<Illuminant, LampError> {
-    let spectra = match read(file, bytes, None) {
+    lamp_from_bytes_with(file, bytes, spectrum, &FileOptions::default())
+}
+
+/// A light from `bytes`, the content of `file`, as [`lamp_from_bytes`], with what you know about the file.
+///
+/// # Errors
+/// [`LampError`] if the file is faulty or does not hold exactly one such spectrum of power.
+pub fn lamp_from_bytes_with(
+    file: &str,
+    bytes: &[u8],
+    spectrum: Option<&str>,
+    options: &FileOptions,
+) -> Result<Illuminant, LampError> {
+    let spectra = match read_with(file, bytes, options) {
         // Very short files are not recognised as columns. Reading them as such gives a better
         // error.
-        Err(InstrumentError::Unrecognised(..)) => read(file, bytes, Some(Format::Columns)),
+        Err(InstrumentError::Unrecognised(..)) => {
+            let format = Some(Format::Columns);
+            read_with(file, bytes, &FileOptions { format, ..options.clone() })
+        }
         known => known,
     }?
     .spectra;
     let measured = choose_spectrum(file, &spectra, spectrum)?;
     let name = spectrum.map_or_else(|| file.to_owned(), |spectrum| format!("{file}#{spectrum}"));
-    Ok(Illuminant::from_samples(&name, &power(file, measured)?)?)
+    let mut remarks: Vec<String> =
+        measured.remarks.iter().map(|remark| format!("{name}: {remark}")).collect();
+    if measured.quantity == MeasuredQuantity::Photons {
+        remarks.push(format!("{name}: numbers of photons are divided by wavelength to give power"));
+    }
+    Ok(Illuminant::from_lamp(&name, &power(file, measured)?)?.with_remarks(remarks))
 }
 
 fn power(file: &str, measured: &MeasuredSpectrum) -> Result<IrregularSpectrum, LampError> {
-    use MeasuredQuantity::{Power, Reflectance, Unknown, Unstated};
+    use MeasuredQuantity::{Photons, Power, Reflectance, Unknown, Unstated};
     let file = file.to_owned();
     let name = measured.name.clone();
     let found = match measured.quantity {
@@ -174,7 +203,7 @@ fn power(file: &str, measured: &MeasuredSpectrum) -> Result<IrregularSpectrum, L
         stated => stated,
     };
     // Relative power is often exported in arbitrary units.
-    if !matches!(found, Power | Unknown | Unstated) {
+    if !matches!(found, Photons | Power | Unknown | Unstated) {
         return Err(LampError::Quantity { file, name, found });
     }
     let nm = &measured.wavelengths_nm;
@@ -192,7 +221,10 @@ fn power(file: &str, measured: &MeasuredSpectrum) -> Result<IrregularSpectrum, L
     if start_nm > NEEDED_NM[0] || end_nm < NEEDED_NM[1] {
         return Err(LampError::Band { file, start_nm, end_nm });
     }
-    let values = measured.values.iter().map(|power| power.max(0.0)).collect();
+    // A photon has an energy of h c / wavelength. Power is relative, so we leave the constants out.
+    let energy = |nm: f64| if found == Photons { 560.0 / nm } else { 1.0 };
+    let values = nm.iter().zip(&measured.values);
+    let values = values.map(|(&nm, power)| power.max(0.0) * energy(nm)).collect();
     Ok(IrregularSpectrum::new(nm.clone(), values).map_err(IlluminantError::from)?)
 }
 
@@ -217,11 +249,7 @@ pub enum LampError {
         "counts hold the detector's own response: export irradiance, radiance or power"
     )]
     #[hint(
-        if *found == MeasuredQuantity::Photons,
-        "export power, or divide each value by its wavelength and name the column `power`"
-    )]
-    #[hint(
-        "a lamp is a spectrum of power, irradiance or radiance; a reflectance is seen under one"
+        "a lamp is a spectrum of power, irradiance or radiance; a reflectance is seen under one; if the heading misleads, set [values=power]"
     )]
     Quantity {
         /// Path of the file.
@@ -429,6 +457,18 @@ mod tests {
         assert_eq!((at(&shop, 400), shop.name()), (3.0, "l#shop"));
         let error = lamp_from_bytes("l", text, Some("hall")).unwrap_err();
         assert_eq!(error.hint().unwrap().to_string(), "spectra: desk, shop");
+    }
+
+    #[test]
+    fn photons_are_divided_by_wavelength_with_a_remark() {
+        for heading in ["QNTM", "quanta", "umol/m2/s/nm", "PPFD", "photon flux"] {
+            let lamp = lamp(&format!("nm,{heading}\n400,400\n500,500\n700,700\n")).unwrap();
+            let found = [360, 400, 450, 700].map(|nm| at(&lamp, nm));
+            for power in found {
+                assert!((power - 560.0).abs() < 1e-9, "{heading}: {found:?}");
+            }
+            assert!(lamp.remarks()[0].contains("divided by wavelength"), "{:?}", lamp.remarks());
+        }
     }
 
     #[test]

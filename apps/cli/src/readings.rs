@@ -12,7 +12,7 @@ use calibrate::matching::{ColorTarget, PriceList, TargetBook, ViewingCondition, 
 use calibrate::measurement::{
     AveragedSpectra, AveragedSpectrum, Film, MeasurementTable, Scale, ScaleChoice,
 };
-use calibrate::visible_band::check_visible_band;
+use calibrate::visible_band::{check_has_color, check_visible_band};
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, Args};
 use documents::counted_as;
@@ -22,9 +22,12 @@ use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::request_options::{CommandLine, RequestOptions};
 use spectra::color::{Adaptation, Rgb, RgbSpace, Xyz};
-use spectra::instrument::split_file_and_name;
+use spectra::instrument::{FileOptions, StatedValues, split_file_and_name};
 use spectra::referencing::{DarkFiles, ReferenceFiles, TileSource};
-use spectra::{Grid, Observer, Reflectance, Spectrum, ViewingNames, light_from_text};
+use spectra::{
+    Grid, Illuminant, Observer, Reflectance, Spectrum, ViewingNames, WavelengthList,
+    light_from_text_with,
+};
 
 /// Heading of the options for measurement files.
 const FILES: &str = "Files of instruments";
@@ -60,7 +63,47 @@ pub(crate) struct ReadingOptions {
     #[arg(long)]
     as_reflectance: bool,
     #[command(flatten)]
+    known: KnownOptions,
+    #[command(flatten)]
     referencing: ReferencingOptions,
+}
+
+/// Options that tell what a file does not say, or says wrongly.
+#[derive(Debug, Clone, Default, Args)]
+pub(crate) struct KnownOptions {
+    /// Quantity of the values, where headings mislead: reflectance, percent, fraction, absorbance, k/s,
+    /// counts, power or photons
+    ///
+    /// Absorbance A becomes the reflectance 10^-A, and K/S that of a film that hides. Photons are divided
+    /// by wavelength.
+    #[arg(long, value_name = "QUANTITY", value_parser = quantity_names(), hide_possible_values = true, ignore_case = true)]
+    values: Option<String>,
+    /// Wavelengths of files that hold values only: a file of them, or FIRST..LAST:STEP in nm
+    ///
+    /// For lines `name<tab>36 values`, a title above one column of values (USGS), or one list of numbers.
+    #[arg(long, value_name = "FILE|380..730:10")]
+    wavelengths: Option<String>,
+}
+
+impl KnownOptions {
+    /// Prints a remark if wavelengths are guessed to be in micrometres.
+    pub(crate) fn options(&self, console: &mut Console<'_>) -> Result<FileOptions> {
+        let list = self.wavelengths.as_deref().map(WavelengthList::named).transpose()?;
+        if let Some(WavelengthList { factor, remark: Some(remark), .. }) = &list
+            && *factor != 1.0
+        {
+            console.remark(remark)?;
+        }
+        Ok(FileOptions {
+            format: None,
+            values: self.values.as_deref().and_then(StatedValues::named),
+            wavelengths_nm: list.map(|list| list.nm),
+        })
+    }
+}
+
+fn quantity_names() -> PossibleValuesParser {
+    PossibleValuesParser::new(StatedValues::ALL.map(StatedValues::name))
 }
 
 fn format_names() -> PossibleValuesParser {
@@ -79,8 +122,9 @@ impl ReadingOptions {
         Self { referencing: self.referencing.with_white_reading(white), ..self.clone() }
     }
 
-    fn options(&self) -> Result<calibrate::ReadingOptions> {
+    fn options(&self, console: &mut Console<'_>) -> Result<calibrate::ReadingOptions> {
         self.referencing.check()?;
+        let FileOptions { values, wavelengths_nm, .. } = self.known.options(console)?;
         Ok(calibrate::ReadingOptions {
             format: self.format.as_deref().and_then(calibrate::ReadingFormat::named),
             scale: match (self.percent, self.fraction) {
@@ -90,6 +134,8 @@ impl ReadingOptions {
             },
             pigments: None,
             transmittance_is_reflectance: self.as_reflectance,
+            values,
+            wavelengths_nm,
             references: self.referencing.reference_files(),
         })
     }
@@ -106,7 +152,7 @@ pub(crate) fn measurements(
 ) -> Result<Readings> {
     remark_repeated(paths, console)?;
     let named = (!pigments.is_empty()).then(|| pigments.to_vec());
-    let options = calibrate::ReadingOptions { pigments: named, ..options.options()? };
+    let options = calibrate::ReadingOptions { pigments: named, ..options.options(console)? };
     let mut readings = Readings::open_all(paths, &options)?;
     if let Some(recipes) = recipes {
         readings = readings.with_recipes_of(recipes, options.pigments.as_deref())?;
@@ -133,7 +179,7 @@ pub(crate) fn spectra_readings(
     console: &mut Console<'_>,
 ) -> Result<Readings> {
     remark_repeated(paths, console)?;
-    let readings = Readings::open_spectra(paths, &options.options()?)?;
+    let readings = Readings::open_spectra(paths, &options.options(console)?)?;
     console.remarks(&readings.remarks)?;
     Ok(readings)
 }
@@ -160,25 +206,50 @@ impl CommandLine for ViewingNames {
 }
 
 impl ViewingOptions {
-    pub(crate) fn viewing(&self) -> Result<Viewing> {
+    pub(crate) fn viewing(&self, console: &mut Console<'_>) -> Result<Viewing> {
         let ViewingNames { illuminant, observer } = self.request()?;
-        viewing(&illuminant, &observer)
+        viewing(&illuminant, &observer, console)
     }
 }
 
 /// Reads the light and looks up the observer that the texts of two options name.
-pub(crate) fn viewing(illuminant: &str, observer: &str) -> Result<Viewing> {
-    Ok(Viewing { illuminant: light_from_text(illuminant)?, observer: Observer::named(observer)? })
+pub(crate) fn viewing(
+    illuminant: &str,
+    observer: &str,
+    console: &mut Console<'_>,
+) -> Result<Viewing> {
+    let known = FileOptions::default();
+    Ok(Viewing {
+        illuminant: light(illuminant, &known, console)?,
+        observer: Observer::named(observer)?,
+    })
+}
+
+/// Reads the light that `text` names, and prints remarks on the file of a lamp.
+pub(crate) fn light(
+    text: &str,
+    known: &FileOptions,
+    console: &mut Console<'_>,
+) -> Result<Illuminant> {
+    let light = light_from_text_with(text, known)?;
+    for remark in light.remarks() {
+        console.remark(remark)?;
+    }
+    Ok(light)
 }
 
 /// Reads a light with its weight among several, `LIGHT` or `LIGHT=WEIGHT`.
-pub(crate) fn condition(text: &str, observer: &str) -> Result<ViewingCondition> {
+pub(crate) fn condition(
+    text: &str,
+    observer: &str,
+    console: &mut Console<'_>,
+) -> Result<ViewingCondition> {
     let weighted = text.rsplit_once('=').and_then(|(light, weight)| {
         let weight: f64 = weight.parse().ok()?;
         Some((light, weight))
     });
     let (light, weight) = weighted.unwrap_or((text, 1.0));
-    Ok(ViewingCondition { viewing: viewing(light, observer)?, weight })
+    Ok(ViewingCondition { viewing: viewing(light, observer, console)?, weight })
 }
 
 /// Converts a colour to encoded sRGB, adapted from `white` by Bradford's transform.
@@ -190,6 +261,12 @@ pub(crate) fn srgb(xyz: Xyz, white: Xyz) -> Rgb {
 /// fails.
 pub(crate) fn remark_coverage(grid: Grid, console: &mut Console<'_>) -> Result<()> {
     console.remarks(&check_visible_band(grid)?)
+}
+
+/// Warns if measurements on `grid` lack a part of the visible band. If they lack more than a quarter, this
+/// fails.
+pub(crate) fn remark_color(grid: Grid, console: &mut Console<'_>) -> Result<()> {
+    console.remarks(&check_has_color(grid)?)
 }
 
 /// Reads a pigment library from a file.
@@ -359,7 +436,7 @@ pub(crate) fn targets(
 /// nothing else was selected.
 fn measured(selected: SelectedSpectra, console: &mut Console<'_>) -> Result<Vec<ColorTarget>> {
     let SelectedSpectra { file, averaged: AveragedSpectra { grid, mut spectra } } = selected;
-    remark_coverage(grid, console)?;
+    remark_color(grid, console)?;
     let count = spectra.len();
     if spectra.iter().any(|spectrum| spectrum.film == Film::Paint) {
         spectra.retain(|spectrum| spectrum.film == Film::Paint);

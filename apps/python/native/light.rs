@@ -23,6 +23,12 @@ impl Light {
         self.0.name()
     }
 
+    /// How the file of a lamp was read.
+    #[getter]
+    fn remarks(&self) -> Vec<String> {
+        self.0.remarks().to_vec()
+    }
+
     /// Wavelengths in nm.
     #[getter]
     fn wavelengths<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {

@@ -8,6 +8,8 @@ use calibrate::measurement::{Film, Scale, ScaleChoice};
 use documents::hint::Fault;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
+use spectra::WavelengthList;
+use spectra::instrument::StatedValues;
 use spectra::referencing::{DarkFiles, ReferenceFiles, TileSource};
 
 use crate::arrays::GridNumbers;
@@ -21,11 +23,35 @@ pub(crate) struct Readings(pub(crate) Arc<calibrate::Readings>);
 /// convert counts to reflectance.
 type References = (String, Vec<String>, Option<String>);
 
+/// Wavelengths of values that stand without theirs: a file or a range, or numbers in nm.
+#[derive(Debug, FromPyObject)]
+enum Wavelengths {
+    Named(String),
+    List(Vec<f64>),
+}
+
+impl Wavelengths {
+    fn nm(self, py: Python<'_>) -> PyResult<Vec<f64>> {
+        match self {
+            Self::Named(text) => {
+                WavelengthList::named(&text).map(|list| list.nm).raised(py, Exception::Reading)
+            }
+            Self::List(values) => {
+                WavelengthList::of(&values, Some("nm")).map(|list| list.nm).map_err(|problem| {
+                    let message = format!("the list of wavelengths {problem}");
+                    let hint = "wavelengths are in nm";
+                    Exception::Reading.with(py, Fault::Setting, &message, Some(hint))
+                })
+            }
+        }
+    }
+}
+
 #[pymethods]
 impl Readings {
     /// Reads files, and recipes where these stand in a file of their own.
     #[staticmethod]
-    #[pyo3(signature = (paths, recipes, pigments, format, percent, transmittance, references, spectra_only))]
+    #[pyo3(signature = (paths, recipes, pigments, format, percent, transmittance, values, wavelengths, references, spectra_only))]
     #[expect(clippy::too_many_arguments, reason = "the public face has them by name")]
     fn open(
         py: Python<'_>,
@@ -35,6 +61,8 @@ impl Readings {
         format: Option<&str>,
         percent: Option<bool>,
         transmittance: bool,
+        values: Option<&str>,
+        wavelengths: Option<Wavelengths>,
         references: Option<References>,
         spectra_only: bool,
     ) -> PyResult<Self> {
@@ -43,6 +71,8 @@ impl Readings {
             scale: scale(percent),
             pigments,
             transmittance_is_reflectance: transmittance,
+            values: values.map(|name| known_quantity(py, name)).transpose()?,
+            wavelengths_nm: wavelengths.map(|list| list.nm(py)).transpose()?,
             references: references.map(reference_files),
         };
         let read = py.detach(|| {
@@ -171,6 +201,15 @@ fn known_format(py: Python<'_>, name: &str) -> PyResult<ReadingFormat> {
         let message = format!("unknown format `{name}`");
         let hint = known.join(", ");
         Exception::Reading.with(py, Fault::Setting, &message, Some(&format!("formats are {hint}")))
+    })
+}
+
+fn known_quantity(py: Python<'_>, name: &str) -> PyResult<StatedValues> {
+    StatedValues::named(name).ok_or_else(|| {
+        let known = StatedValues::ALL.map(StatedValues::name).join(", ");
+        let message = format!("unknown quantity `{name}`");
+        let hint = format!("quantities are {known}");
+        Exception::Reading.with(py, Fault::Setting, &message, Some(&hint))
     })
 }
 

@@ -65,6 +65,29 @@ def test_a_fault_in_a_file_has_its_place(tmp_path: Path) -> None:
     assert place is not None and (place.file, place.row, place.column) == (str(path), 3, "410")
 
 
+def test_values_without_their_quantity_or_wavelengths_are_stated(tmp_path: Path) -> None:
+    path = tmp_path / "values.txt"
+    path.write_text("Red\t1.0\t0.7\t0.2\t0.1\nBlue\t0.3\t0.4\t0.7\t1.0\n")
+    for wavelengths in [[400, 500, 600, 700], "400..700:100"]:
+        found = im.read(path, values="absorbance", wavelengths=wavelengths, spectra_only=True)
+        assert found.spectra.names == ["Red", "Blue"]
+        assert np.allclose(found.spectra.rows[0], 10 ** -np.array([1.0, 0.7, 0.2, 0.1]))
+    with pytest.raises(im.ReadingError, match="needed for each of 3 wavelengths"):
+        im.read(path, wavelengths=[400, 500, 600])
+    with pytest.raises(im.ReadingError, match="moonlight"):
+        im.read(path, values="moonlight", wavelengths="400..700:100")
+
+
+def test_a_lamp_tells_how_it_was_read(tmp_path: Path) -> None:
+    path = tmp_path / "lamp.csv"
+    rows = [f"{nm},{np.exp(-(((nm - 560) / 90) ** 2)):.6f}" for nm in range(380, 781, 10)]
+    path.write_text("nm,QNTM\n" + "\n".join(rows) + "\n")
+    remarks = im.Light.read(path).remarks
+    assert any("divided by wavelength" in remark for remark in remarks)
+    assert any("Sprague" in remark for remark in remarks)
+    assert im.Light("D65").remarks == []
+
+
 def test_a_missing_file_is_an_os_error(tmp_path: Path) -> None:
     with pytest.raises(OSError, match="missing.csv") as error:
         im.read(tmp_path / "missing.csv")

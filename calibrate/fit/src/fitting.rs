@@ -151,6 +151,9 @@ impl PreparedFit {
         task: &Task,
     ) -> Result<Self, FittingError> {
         let mut remarks = Vec::from_iter(check_visible_band(readings.table.grid)?);
+        let (options, geometry) = options.with_geometry_of(readings);
+        let options = &options;
+        remarks.extend(geometry);
         let set = without_excluded(readings.swatches()?, &options.exclude)?;
         let stated_surface = options.stated_surface();
         let below_surface = options.below_surface.unwrap_or(match stated_surface {
@@ -159,7 +162,7 @@ impl PreparedFit {
         });
         check_backings(&set)?;
         if stated_surface.is_none() || below_surface == BelowSurface::Floor {
-            let usual = Surface::of_most_paints(options.specular);
+            let usual = Surface::of_most_paints(options.specular.unwrap_or_default());
             let Surface { k1, k2, .. } = stated_surface.unwrap_or(usual);
             check_above_surface(&set, k1, k2).map_err(CalibrationError::from)?;
         }
@@ -172,9 +175,12 @@ impl PreparedFit {
                 // Who says how readings below k1 are treated means the usual k1.
                 let surface = match (stated_surface, options.below_surface) {
                     (Some(surface), _) => surface,
-                    (None, Some(_)) => Surface::of_most_paints(options.specular),
+                    (None, Some(_)) => {
+                        Surface::of_most_paints(options.specular.unwrap_or_default())
+                    }
                     (None, None) => {
-                        let (surface, lowered) = usual_below_readings(&set, options.specular);
+                        let (surface, lowered) =
+                            usual_below_readings(&set, options.specular.unwrap_or_default());
                         remarks.extend(lowered);
                         surface
                     }
@@ -311,7 +317,7 @@ fn film_model(
     task: &Task,
     remarks: &mut Vec<Remark>,
 ) -> Result<UnevenFilm, FittingError> {
-    let plain = Surface { k1: 0.0, k2: 0.0, specular: options.specular };
+    let plain = Surface { k1: 0.0, k2: 0.0, specular: options.specular.unwrap_or_default() };
     let stated_surface = options.stated_surface();
     if stated_surface.is_some() || options.unevenness.is_some() {
         return Ok(UnevenFilm {
@@ -410,7 +416,8 @@ pub(crate) fn usual_below_readings(
         usual.k1,
         darkest(set, least)
     ));
-    (surface, Some(remark.with_hint("state the surface with [saunderson=K1,K2]")))
+    let hint = "state the surface with [saunderson=K1,K2], or set [specular=excluded] if the instrument measures at 45:0";
+    (surface, Some(remark.with_hint(hint)))
 }
 
 /// Sample and wavelength at which `set` has the reading `least`, in words.

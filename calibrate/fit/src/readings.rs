@@ -7,7 +7,10 @@ use documents::hint::Explain;
 use documents::{counted, file::FileError};
 use pigment::library::Input;
 use pigment::remark::Remark;
-use spectra::instrument::{FileText, Format, InstrumentError, InstrumentFile, bytes_of, read};
+use spectra::instrument::{
+    FileOptions, FileText, Format, InstrumentError, InstrumentFile, StatedValues, bytes_of,
+    read_with,
+};
 use spectra::referencing::{
     OpenedReferences, ReferenceFiles, ReferenceFilesError, ReferencingError, TileSource,
 };
@@ -255,9 +258,9 @@ fn of_bytes(
     references: Option<&References>,
     spectra_only: bool,
 ) -> Result<OfFile, ReadingsError> {
-    let (table, remarks) = match instrument_file(file, bytes, options.format)? {
+    let (table, remarks) = match instrument_file(file, bytes, options)? {
         Some(spectra) => instrument_table(file, spectra, options, references)?,
-        None if references.is_some() => {
+        None if references.is_some() || options.values == Some(StatedValues::Counts) => {
             return Err(ReadingsError::CsvOfCounts(file.to_owned()));
         }
         None => csv_table(file, bytes, options, spectra_only)?,
@@ -290,23 +293,27 @@ impl References {
 fn instrument_file(
     file: &str,
     bytes: &[u8],
-    format: Option<ReadingFormat>,
+    options: &ReadingOptions,
 ) -> Result<Option<InstrumentFile>, InstrumentError> {
-    match format {
+    let format = match options.format {
         Some(ReadingFormat::Csv) => return Ok(None),
-        Some(ReadingFormat::Instrument(format)) => {
-            return read(file, bytes, Some(format)).map(Some);
-        }
-        None => {}
+        Some(ReadingFormat::Instrument(format)) => Some(format),
+        None => None,
+    };
+    let wavelengths_nm = options.wavelengths_nm.clone();
+    let known = FileOptions { format, values: options.values, wavelengths_nm };
+    if known.format.is_some() || known.wavelengths_nm.is_some() {
+        return read_with(file, bytes, &known).map(Some);
     }
     let Some(content) = FileText::of(file, bytes)? else {
-        return read(file, bytes, None).map(Some);
+        return read_with(file, bytes, &known).map(Some);
     };
     let text = &content.text;
-    let known = if begins_with_samples(text) { None } else { Format::detect(file, text) };
+    let detected = if begins_with_samples(text) { None } else { Format::detect(file, text) };
     // If a table has no numbers below its headings, we do not read it as columns of numbers.
-    let known = known.filter(|format| *format != Format::Columns || !is_measurement_csv(text));
-    known.map(|_| read(file, bytes, None)).transpose()
+    let detected =
+        detected.filter(|format| *format != Format::Columns || !is_measurement_csv(text));
+    detected.map(|_| read_with(file, bytes, &known)).transpose()
 }
 
 fn instrument_table(
@@ -324,14 +331,14 @@ fn instrument_table(
         })?;
     }
     let choice = RecordChoice {
-        scale: options.scale,
+        scale: options.scale_choice(),
         transmittance_is_reflectance: options.transmittance_is_reflectance,
     };
     let table = MeasurementTable::from_records(file, &content.spectra, choice)?;
     let count = table.readings.len();
     let spectra = if count == 1 { "spectrum" } else { "spectra" };
     let summary = format!("{file}: {}, {count} {spectra}", content.format.title());
-    let remarks = remarks(&summary, &table);
+    let remarks = remarks(&summary, &table, references.is_some());
     Ok((table, remarks))
 }
 
@@ -342,16 +349,21 @@ fn csv_table(
     spectra_only: bool,
 ) -> Result<(MeasurementTable, Vec<Remark>), MeasurementError> {
     let table = if spectra_only {
-        MeasurementTable::spectra_from_csv(file, bytes, options.scale)?
+        MeasurementTable::spectra_from_csv(file, bytes, options.scale_choice())?
     } else {
-        MeasurementTable::from_csv_with(file, bytes, options.scale, options.pigments.as_deref())?
+        MeasurementTable::from_csv_with(
+            file,
+            bytes,
+            options.scale_choice(),
+            options.pigments.as_deref(),
+        )?
     };
     let content = FileText::of(file, bytes).map_err(MeasurementError::Instrument)?;
     let (file, encoding) = content.map_or((file.to_owned(), "UTF-8"), |c| (c.file, c.encoding));
     let is_utf8 = encoding == "UTF-8";
     let encoding = if is_utf8 { String::new() } else { format!(" ({encoding})") };
     let summary = format!("{file}{encoding}: {}", counted(table.readings.len(), "reading"));
-    let remarks = remarks(&summary, &table);
+    let remarks = remarks(&summary, &table, false);
     Ok((table, remarks))
 }
 
@@ -361,14 +373,15 @@ fn large_csv(
     options: &ReadingOptions,
     spectra_only: bool,
 ) -> Result<Option<OfFile>, ReadingsError> {
-    let is_csv = options.format.is_none_or(|format| format == ReadingFormat::Csv);
+    let is_csv = options.format.is_none_or(|format| format == ReadingFormat::Csv)
+        && options.wavelengths_nm.is_none();
     if !is_csv || options.references.is_some() {
         return Ok(None);
     }
     let unreadable = |reason| FileError::reading(path, reason);
     let Some(large) = LargeCsv::open(path).map_err(unreadable)? else { return Ok(None) };
     let pigments = options.pigments.as_deref();
-    let choice = LargeCsvChoice { scale: options.scale, pigments, spectra_only };
+    let choice = LargeCsvChoice { scale: options.scale_choice(), pigments, spectra_only };
     let table = large.table(choice).map_err(|error| match error {
         LargeCsvError::System(reason) => unreadable(reason).into(),
         LargeCsvError::Measurement(error) => ReadingsError::Measurement(error),
@@ -376,13 +389,14 @@ fn large_csv(
     let content = File::open(path).map_err(unreadable)?;
     let input = Input::of_reader(large.file(), content).map_err(unreadable)?;
     let summary = format!("{}: {}", large.file(), counted(table.readings.len(), "reading"));
-    let remarks = remarks(&summary, &table);
+    let remarks = remarks(&summary, &table, false);
     Ok(Some((table, input, remarks)))
 }
 
 /// Remarks about one file: `summary` with unit and grid, then the remarks of the table as warnings.
-fn remarks(summary: &str, table: &MeasurementTable) -> Vec<Remark> {
+fn remarks(summary: &str, table: &MeasurementTable, were_counts: bool) -> Vec<Remark> {
     let unit = match table.scale {
+        _ if were_counts => "counts, divided by the white",
         Scale::Percent => "percent",
         Scale::Fraction => "fractions",
     };
@@ -392,7 +406,10 @@ fn remarks(summary: &str, table: &MeasurementTable) -> Vec<Remark> {
             "{count} irregular wavelengths brought to that grid by a cubic spline"
         ))
     }));
-    remarks.extend(table.remarks.iter().map(Remark::warning));
+    remarks.extend(table.remarks.iter().map(|text| match text.split_once("; set [") {
+        Some((warning, setting)) => Remark::warning(warning).with_hint(format!("set [{setting}")),
+        None => Remark::warning(text),
+    }));
     remarks
 }
 
@@ -441,9 +458,26 @@ pub struct ReadingOptions {
     /// Whether transmittance counts as reflectance, for spectrometers that measured in transmission
     /// mode over a white tile. Counts and powers of lamps never do.
     pub transmittance_is_reflectance: bool,
+    /// Quantity of the values. Default: what the file states. Absorbance and K/S are turned into
+    /// reflectance.
+    pub values: Option<StatedValues>,
+    /// Wavelengths in nm of files that hold values only ([`spectra::WavelengthList`]).
+    pub wavelengths_nm: Option<Vec<f64>>,
     /// White, dark and tile with which counts are converted to reflectances. Default: the files hold
     /// reflectances.
     pub references: Option<ReferenceFiles>,
+}
+
+impl ReadingOptions {
+    /// How values become fractions. An instrument's values are converted already.
+    fn scale_choice(&self) -> ScaleChoice {
+        match self.values {
+            Some(StatedValues::Percent) => ScaleChoice::Known(Scale::Percent),
+            Some(StatedValues::Fraction) => ScaleChoice::Known(Scale::Fraction),
+            Some(values) if values.conversion().is_some() => ScaleChoice::Converted(values),
+            _ => self.scale,
+        }
+    }
 }
 
 /// Measurement files that cannot be read.
@@ -483,4 +517,53 @@ pub enum ReadingsError {
     )]
     #[fault(Setting)]
     CsvOfCounts(String),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(file: &str, text: &str, options: &ReadingOptions) -> Result<Readings, ReadingsError> {
+        Readings::spectra_from_files(&[(file, text)], options)
+    }
+
+    #[test]
+    fn what_the_values_are_may_be_stated() {
+        let of = |values| ReadingOptions { values: Some(values), ..ReadingOptions::default() };
+        let columns = "nm,Counts\n400,0.3\n500,0.3\n600,0.3\n700,0.3\n";
+        let rows = "sample,400,500,600,700\nA,0.3,0.3,0.3,0.3\n";
+        for (values, wanted) in [
+            (StatedValues::Reflectance, 0.3),
+            (StatedValues::Percent, 0.003),
+            (StatedValues::Absorbance, 0.501_187),
+            (StatedValues::KubelkaMunk, 0.469_338),
+        ] {
+            for text in [columns, rows] {
+                let found = read("f.csv", text, &of(values)).unwrap();
+                let value = found.table.readings[0].reflectance[1];
+                assert!((value - wanted).abs() < 1e-6, "{values:?} {text}: {value}");
+                let told = found.remarks.iter().any(|r| r.text.contains("is turned into"));
+                assert_eq!(told, values.conversion().is_some(), "{:?}", found.remarks);
+            }
+        }
+        for (text, words) in [(columns, "counts"), (rows, "CSV")] {
+            let error = read("f.csv", text, &of(StatedValues::Counts)).unwrap_err().to_string();
+            assert!(error.contains(words), "{error}");
+        }
+    }
+
+    #[test]
+    fn values_without_wavelengths_take_those_that_you_state() {
+        let nm = vec![400.0, 500.0, 600.0, 700.0];
+        let options = ReadingOptions { wavelengths_nm: Some(nm), ..ReadingOptions::default() };
+        let text = "\"Red\"\t10\t20\t60\t70\n\"Blue\"\t50\t40\t20\t10\n";
+        let found = read("f.txt", text, &options).unwrap();
+        assert_eq!(found.table.grid, spectra::Grid::from_nm(400.0, 100.0, 4).unwrap());
+        assert_eq!(
+            (found.table.readings[1].sample.as_str(), found.table.scale),
+            ("Blue", Scale::Percent)
+        );
+        let own = read("f.csv", "sample,400,500,600,700\nA,1,2,3,4\n", &options).unwrap_err();
+        assert!(own.to_string().contains("states its own wavelengths"), "{own}");
+    }
 }

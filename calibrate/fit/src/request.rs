@@ -5,12 +5,14 @@
 use documents::request::{RequestError, from_text};
 use pigment::evaluate::Viewing;
 use pigment::library::{AmountKind, PigmentLibrary};
+use pigment::remark::Remark;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use spectra::optics::{Specular, Surface};
 
 use crate::fit::{Method, Smoothness};
 use crate::observation::BelowSurface;
+use crate::readings::Readings;
 
 /// Options of a fit. [`Self::run`] fits.
 ///
@@ -41,8 +43,8 @@ pub struct FitRequest {
     #[serde(serialize_with = "write_surface", deserialize_with = "read_surface")]
     #[schemars(schema_with = "surface_schema")]
     pub surface: Option<Surface>,
-    /// Whether the readings include the specular reflection
-    pub specular: Specular,
+    /// Whether the readings include the specular reflection [default: as the files say, else included]
+    pub specular: Option<Specular>,
     /// Treatment of a reading below k1. If you set this without `surface`, k1 stays 0.03 even if readings
     /// are lower [default: refuse]
     pub below_surface: Option<BelowSurface>,
@@ -115,7 +117,7 @@ impl FitRequest {
         let is_absolute = library.amounts == AmountKind::Absolute;
         Self {
             surface: Some(library.saunderson),
-            specular: library.saunderson.specular,
+            specular: Some(library.saunderson.specular),
             below_surface: self.below_surface.or(Some(BelowSurface::Floor)),
             unevenness: if is_absolute { Some(library.unevenness) } else { self.unevenness },
             ..self
@@ -126,9 +128,26 @@ impl FitRequest {
     /// `surface` or `specular`.
     pub(crate) fn stated_surface(&self) -> Option<Surface> {
         self.surface.map(|surface| match self.specular {
-            specular @ Specular::Excluded => Surface { specular, ..surface },
-            Specular::Included => surface,
+            Some(specular @ Specular::Excluded) => Surface { specular, ..surface },
+            Some(Specular::Included) | None => surface,
         })
+    }
+
+    /// The request with the geometry of `readings`, if it does not state its own, and a remark if this
+    /// changes the fit.
+    pub(crate) fn with_geometry_of(&self, readings: &Readings) -> (Self, Option<Remark>) {
+        let stated = readings.table.geometry.as_ref();
+        let stated =
+            stated.filter(|_| self.specular.is_none() && self.surface != Some(Surface::NONE));
+        let excluded = stated.filter(|stated| !stated.includes_specular);
+        let remark = excluded.map(|stated| {
+            let words = &stated.words;
+            let text =
+                format!("{words}: the readings are taken to exclude the specular reflection");
+            Remark::note(text).with_hint("set [specular=included] if they include it")
+        });
+        let specular = if excluded.is_some() { Some(Specular::Excluded) } else { self.specular };
+        (Self { specular, ..self.clone() }, remark)
     }
 }
 
@@ -234,6 +253,29 @@ mod tests {
         assert_eq!(request.smoothness, Smoothness::Fixed(10.0));
         assert_eq!(request.unevenness, Some(0.0));
         assert_eq!(request.stated_surface(), Some(Surface::of_most_paints(Specular::Excluded)));
+    }
+
+    #[test]
+    fn the_instrument_that_a_file_names_decides_on_the_specular_reflection() {
+        let of = |instrument: &str, request: &FitRequest| {
+            let text = format!(
+                "CGATS.17\nINSTRUMENTATION \"{instrument}\"\nBEGIN_DATA_FORMAT\n\
+                 SAMPLE_ID SPEC_400 SPEC_500 SPEC_600\nEND_DATA_FORMAT\nBEGIN_DATA\n\
+                 A 0.1 0.2 0.3\nEND_DATA\n"
+            );
+            let options = crate::ReadingOptions::default();
+            let readings = Readings::spectra_from_files(&[("f", text)], &options).unwrap();
+            let (request, remark) = request.with_geometry_of(&readings);
+            (request.specular, remark.is_some())
+        };
+        let plain = FitRequest::default();
+        assert_eq!(of("i1Pro", &plain), (Some(Specular::Excluded), true));
+        assert_eq!(of("CM-700d SCI", &plain), (None, false));
+        assert_eq!(of("CM-700d", &plain), (None, false));
+        let stated = FitRequest { specular: Some(Specular::Included), ..FitRequest::default() };
+        assert_eq!(of("i1Pro", &stated), (Some(Specular::Included), false));
+        let none = FitRequest { surface: Some(Surface::NONE), ..FitRequest::default() };
+        assert_eq!(of("i1Pro", &none), (None, false));
     }
 
     #[test]

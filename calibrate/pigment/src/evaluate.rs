@@ -178,7 +178,26 @@ pub fn check_visible_band(grid: Grid) -> Result<Option<Remark>, BandError> {
     }
 }
 
-/// Spectra without any visible wavelength have no colour.
+/// At most so many nm from 420 to 680 may be missing for the colour of a measurement.
+const MOST_MISSING_NM: f64 = 65.0;
+
+/// Checks that measured spectra on `grid` have a colour, as [`check_visible_band`] does, and that no more
+/// than a quarter of 420 to 680 nm is missing.
+///
+/// # Errors
+/// [`BandError`] for a grid of which too much is missing, such as 250 to 400 nm or 675 to 2495 nm.
+pub fn check_has_color(grid: Grid) -> Result<Option<Remark>, BandError> {
+    let start_nm = grid.start_nm();
+    let end_nm = grid.end_nm();
+    let [first, last] = WANTED_NM;
+    let missing = (start_nm - first).max(0.0) + (last - end_nm).max(0.0);
+    if missing > MOST_MISSING_NM {
+        return Err(BandError { start_nm, end_nm });
+    }
+    check_visible_band(grid)
+}
+
+/// Spectra with too little of the visible band have no colour.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error, Explain)]
 #[hint("measure from 400 to 700 nm or more")]
 #[error("spectra from {start_nm} to {end_nm} nm have no colour")]
@@ -192,6 +211,19 @@ pub struct BandError {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn measurements_without_most_of_the_visible_band_have_no_color() {
+        for (first, last, step) in
+            [(250.0, 400.0, 10.0), (675.0, 2495.0, 10.0), (642.0, 642.3, 0.1), (500.0, 700.0, 10.0)]
+        {
+            let refused = check_has_color(Grid::from_range(first, last, step).unwrap());
+            assert_eq!(refused.unwrap_err().start_nm, first);
+        }
+        let most = check_has_color(Grid::from_range(450.0, 950.0, 10.0).unwrap()).unwrap();
+        assert!(most.is_some_and(|remark| remark.text.contains("end values")));
+        assert_eq!(check_has_color(Grid::from_range(400.0, 700.0, 10.0).unwrap()), Ok(None));
+    }
 
     #[test]
     fn percentiles_are_those_of_numpy() {

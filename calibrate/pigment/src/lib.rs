@@ -65,7 +65,7 @@ pub mod remark {
 
 /// The check that spectra cover the visible band.
 pub mod visible_band {
-    pub use crate::evaluate::{BandError, check_visible_band};
+    pub use crate::evaluate::{BandError, check_has_color, check_visible_band};
 }
 
 /// How a library was fitted.

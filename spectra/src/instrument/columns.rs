@@ -7,26 +7,69 @@
 use super::decode::{Decimal, lines, number, required_number};
 use super::measured::{InstrumentError, MeasuredSpectrum, Role, Unit, deviations, stem};
 use super::points::{Duplicates, Point, ordered};
-use super::quantity::MeasuredQuantity;
+use super::quantity::{MeasuredQuantity, line_states_percent, states_percent};
 use crate::headings::{is_wavelength, name_rank, without_unit};
 
 /// Whether `text` consists of columns: most lines are numbers, and each starts with a wavelength.
 pub(super) fn is_column_text(text: &str) -> bool {
     let Some(layout) = Layout::of(content(text).map(|(_, line)| line)) else { return false };
-    let mut rows = 0_usize;
+    let mut firsts = Vec::new();
+    let mut above = Vec::new();
     let mut others = 0_usize;
     for (number, line) in content(text) {
         if !layout.is_row(line) {
             others += 1;
+            above.push(line);
         } else {
             let first = layout.numbers("", number, line, 0).map(|row| row[0]);
-            if !first.is_ok_and(|nm| nm >= 100.0) {
-                return false;
-            }
-            rows += 1;
+            firsts.push(first.unwrap_or(f64::NAN));
         }
     }
-    rows >= 2 && rows >= others
+    let are_wavelengths = firsts.iter().all(|nm| *nm >= 100.0) || are_micrometres(&above, &firsts);
+    are_wavelengths && firsts.len() >= 2 && firsts.len() >= others
+}
+
+/// Wavelengths in micrometres lie in this range. The spectral libraries of geologists end at about 15.
+const MICROMETRES: [f64; 2] = [0.2, 20.0];
+/// So many numbers without a word must rise or fall before we take them for micrometres.
+const LEAST_MICROMETRES: usize = 8;
+
+/// Whether `firsts`, the numbers of the first column, are micrometres: by a word in the lines above, or
+/// because they rise or fall throughout from less than 2.5 within 0.2 to 20, as whole numbers do not.
+fn are_micrometres(above: &[&str], firsts: &[f64]) -> bool {
+    let [shortest, longest] = MICROMETRES;
+    if !firsts.iter().all(|x| (shortest..=longest).contains(x)) {
+        return false;
+    }
+    let named = above.iter().find_map(|line| Axis::of_words(line));
+    named == Some(Axis::Micrometres)
+        || (named.is_none()
+            && firsts.len() >= LEAST_MICROMETRES
+            && firsts.iter().any(|x| *x < 2.5)
+            && firsts.iter().any(|x| x.fract() != 0.0)
+            && (firsts.is_sorted_by(|a, b| a < b) || firsts.is_sorted_by(|a, b| a > b)))
+}
+
+/// Beyond this in nm few instruments measure, and infrared spectra in waves per cm begin.
+const LONGEST_UNNAMED: f64 = 2500.0;
+
+/// The unit of the first column, which no word states, with a remark if we guess.
+fn unnamed_axis(
+    file: &str,
+    table: &NumberTable<'_>,
+) -> Result<(Axis, Option<String>), InstrumentError> {
+    let firsts: Vec<f64> = table.rows.iter().map(|(_, row)| row[0]).collect();
+    let from = firsts.iter().copied().fold(f64::INFINITY, f64::min);
+    let to = firsts.iter().copied().fold(0.0, f64::max);
+    if are_micrometres(&[], &firsts) {
+        let remark = format!("wavelengths have no unit: {from} to {to} are taken for micrometres");
+        return Ok((Axis::Micrometres, Some(remark)));
+    }
+    if to > LONGEST_UNNAMED {
+        let file = file.to_owned();
+        return Err(InstrumentError::AxisUnit { file, line: table.rows[0].0, from, to });
+    }
+    Ok((Axis::Nanometres, None))
 }
 
 pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
@@ -43,7 +86,11 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
     }
     let words: String = table.above.join(" ");
     let axis = heads.first().and_then(|head| Axis::of_words(head.lowest()));
-    let axis = axis.or_else(|| Axis::of_words(&words)).unwrap_or(Axis::Nanometres);
+    let (axis, guess) = match axis.or_else(|| Axis::of_words(&words)) {
+        Some(axis) => (axis, None),
+        None => unnamed_axis(file, &table)?,
+    };
+    let in_percent = table.above.iter().any(|line| line_states_percent(line));
     let above = table.above.iter().map(|line| MeasuredQuantity::of_words(line));
     let stated = |quantity: &MeasuredQuantity| {
         !matches!(quantity, MeasuredQuantity::Deviation | MeasuredQuantity::Unstated)
@@ -80,10 +127,11 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
                 _ => stem(file),
             };
             let is_percent =
-                heads.get(column).is_some_and(ColumnHead::states_percent) || states_percent(&words);
+                heads.get(column).is_some_and(ColumnHead::states_percent) || in_percent;
             let unit = if is_percent { Unit::Percent } else { Unit::Unstated };
             let label = ColumnLabel { name, quantity, unit };
             let mut record = table.spectrum(file, column, axis, label)?;
+            record.remarks.extend(guess.clone());
             if column == kept[0] && kept != deviations {
                 let mut names: Vec<String> = Vec::new();
                 for name in deviations.iter().map(|&column| heads[column].lowest().to_owned()) {
@@ -100,13 +148,6 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
             Ok(record)
         })
         .collect()
-}
-
-/// Whether a `%` in `words` is a unit. `100% abundance` is a figure.
-fn states_percent(words: &str) -> bool {
-    words
-        .match_indices('%')
-        .any(|(at, _)| !words[..at].trim_end().ends_with(|letter: char| letter.is_ascii_digit()))
 }
 
 /// The cells above a column, from the lowest row up. Some tables have two rows of headings: doses above
@@ -200,7 +241,9 @@ impl<'a> NumberTable<'a> {
     /// add the cells of lines above. A cell of those reaches to the next one, as merged cells do.
     fn heads(&self, width: usize) -> Vec<ColumnHead<'a>> {
         let Some(layout) = self.layout else { return Vec::new() };
-        let lines = self.above.iter().rev().map(|line| layout.cells(line));
+        // A quoted sentence is no line of headings.
+        let whole = |line: &&&str| layout.separator.is_some() || !line.contains('"');
+        let lines = self.above.iter().rev().filter(whole).map(|line| layout.cells(line));
         let lines: Vec<Vec<&str>> =
             lines.filter(|cells| (2..=width).contains(&cells.len())).collect();
         let find = |is_wanted: &dyn Fn(&[&str]) -> bool| {
@@ -326,14 +369,22 @@ impl Axis {
     /// The unit named in `words`, for example in the heading of a column. `None` if they name no unit.
     pub(super) fn of_words(words: &str) -> Option<Self> {
         let lower = words.to_lowercase();
-        let contains_any = |stems: &[&str]| stems.iter().any(|stem| lower.contains(stem));
-        if contains_any(&["1/cm", "cm-1", "cm^-1", "wavenumber", "wave number"]) {
+        let contains_any = |signs: &[&str]| signs.iter().any(|sign| lower.contains(sign));
+        let words = lower.split(|c: char| !c.is_alphanumeric());
+        // A unit may follow its number, as in `300-900NM`.
+        let words: Vec<&str> =
+            words.map(|word| word.trim_start_matches(|c: char| c.is_ascii_digit())).collect();
+        let begins = |stems: &[&str]| {
+            words.iter().any(|word| stems.iter().any(|stem| word.starts_with(stem)))
+        };
+        if contains_any(&["1/cm", "cm-1", "cm^-1", "wave number"]) || begins(&["wavenumber"]) {
             Some(Self::Wavenumbers)
-        } else if contains_any(&["micromet", "micron", "\u{b5}m", "\u{3bc}m"])
-            || lower.trim() == "um"
+        } else if contains_any(&["\u{b5}m", "\u{3bc}m"])
+            || begins(&["micromet", "micron"])
+            || words.contains(&"um")
         {
             Some(Self::Micrometres)
-        } else if contains_any(&["nm", "nanomet", "wavelength"]) {
+        } else if begins(&["nanomet", "wavelength"]) || words.contains(&"nm") {
             Some(Self::Nanometres)
         } else {
             None
@@ -525,6 +576,65 @@ mod tests {
         assert_eq!(read("f", text).unwrap()[0].quantity, MeasuredQuantity::Power);
         let text = text.replace("CCT", "x");
         assert_eq!(read("f", &text).unwrap()[0].quantity, MeasuredQuantity::Unstated);
+    }
+
+    #[test]
+    fn micrometres_are_known_by_a_word_or_guessed_with_a_remark() {
+        for head in [
+            "Wavelength_um,R\n",
+            "Wavelength (um),R\n",
+            "micrometers,R\n",
+            "Type: manmade\nX Units: Wavelength (micrometers)\nY Units: Reflectance (percent)\n",
+        ] {
+            let text = format!("{head}0.4,0.1\n0.5,0.2\n0.6,0.2\n");
+            assert!(is_column_text(&text), "{head}");
+            let found = &read("f", &text).unwrap()[0];
+            assert_eq!(found.wavelengths_nm, [400.0, 500.0, 600.0], "{head}");
+            assert_eq!(found.unit == Unit::Percent, head.contains("percent"), "{head}");
+            assert!(found.remarks.is_empty(), "{:?}", found.remarks);
+        }
+        let rows = |first: fn(u32) -> f64| -> String {
+            (0..10).map(|at| format!("{} 0.{at}\n", first(at))).collect()
+        };
+        let guessed = rows(|at| 14.0 - 1.5 * f64::from(at));
+        assert!(is_column_text(&guessed));
+        let found = &read("f", &guessed).unwrap()[0];
+        assert_eq!((found.wavelengths_nm[0], found.values[0]), (500.0, 0.9));
+        assert!(found.remarks[0].contains("are taken for micrometres"), "{:?}", found.remarks);
+        for other in [rows(|at| f64::from(at + 1)), rows(|at| 0.4 + f64::from(at % 2))] {
+            assert!(!is_column_text(&other), "{other}");
+        }
+    }
+
+    #[test]
+    fn numbers_beyond_2500_without_a_word_are_asked_about() {
+        for text in ["399 0.1\n4000 0.2\n", "4000 0.1\n2600 0.2\n399 0.3\n"] {
+            let asked = read("f", text).unwrap_err();
+            let wanted = matches!(asked, InstrumentError::AxisUnit { from: 399.0, to: 4000.0, .. });
+            assert!(wanted && asked.to_string().contains("line 1"), "{asked}");
+            let named = read("f", &format!("cm-1 R\n{text}")).unwrap();
+            assert_eq!(named[0].wavelengths_nm[0], 2500.0);
+            assert!(read("f", &format!("nm R\n{text}")).is_ok());
+        }
+        assert!(read("f", "350 0.1\n2500 0.2\n").is_ok());
+    }
+
+    #[test]
+    fn percent_is_stated_by_units_and_not_by_notes() {
+        for (text, wanted) in [
+            ("Wavelength[nm]\tReflectance[%]\n400\t1\n410\t2\n", Unit::Percent),
+            ("quartz, 100% abundance\nnm R\n400 0.1\n410 0.2\n", Unit::Unstated),
+            ("nm,20% tint,50% tint\n400,0.1,0.1\n410,0.2,0.1\n", Unit::Unstated),
+        ] {
+            assert_eq!(read("f", text).unwrap()[0].unit, wanted, "{text}");
+        }
+    }
+
+    #[test]
+    fn photons_above_the_rows_are_a_light() {
+        let text = "\"REM: GR8 (QNTM)\"\n\"DATE:08/18 15:27\"\n 400  1.0E-04\n 410  2.0E-04\n";
+        let found = &read("d/lamp.PRN", text).unwrap()[0];
+        assert_eq!((found.name.as_str(), found.quantity), ("lamp", MeasuredQuantity::Photons));
     }
 
     #[test]

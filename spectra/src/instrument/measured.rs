@@ -362,6 +362,36 @@ pub enum InstrumentError {
         /// That wavelength in nm.
         nm: f64,
     },
+    /// The number of values differs from the number of stated wavelengths.
+    #[error(
+        "{file}, line {line}: one value is needed for each of {wanted} wavelengths, found `{found}`"
+    )]
+    #[hint("name the wavelengths of these values with [wavelengths=380..730:10] or a file of them")]
+    ValuesForWavelengths {
+        /// Path of the file.
+        file: String,
+        /// Line number of the values, from 1.
+        line: usize,
+        /// Number of wavelengths.
+        wanted: usize,
+        /// Number of values.
+        found: usize,
+    },
+    /// The first column may hold wavelengths or wavenumbers.
+    #[error(
+        "{file}, line {line}: the first column runs from {from} to `{to}` and does not say whether these are nm or waves per cm"
+    )]
+    #[hint("write `nm` or `cm-1` in a line above the first column")]
+    AxisUnit {
+        /// Path of the file.
+        file: String,
+        /// Line number of the first row, from 1.
+        line: usize,
+        /// Smallest number of the column.
+        from: f64,
+        /// Largest number of the column.
+        to: f64,
+    },
     /// The wavelengths of a spectrum are not given.
     #[error(
         "{file}, line {line}: {element} has no {missing}, and neither has the specification `{specification}`"

@@ -7,6 +7,7 @@ mod quantity;
 mod measured;
 mod points;
 mod decode;
+mod stated;
 mod columns;
 mod long_table;
 mod avantes;
@@ -33,4 +34,8 @@ pub use measured::{
     deviations, split_file_and_name,
 };
 pub use quantity::MeasuredQuantity;
-pub use read::{InstrumentFile, OpenError, OpenedSpectrum, bytes_of, open, open_spectrum, read};
+pub use read::{
+    FileOptions, InstrumentFile, OpenError, OpenedSpectrum, bytes_of, open, open_spectrum, read,
+    read_with,
+};
+pub use stated::{StatedGeometry, StatedValues};

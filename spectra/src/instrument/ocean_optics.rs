@@ -146,11 +146,19 @@ pub(super) fn read_procspec(
     let white_element = find(&root, "referenceSpectrum", &[]);
     let dark_element = find(&root, "darkSpectrum", &[]);
     let apart = ["referenceSpectrum", "darkSpectrum"];
-    let [nm, processed, sample] = ["channelWavelengths", "processedPixels", "pixelValues"]
-        .map(|name| numbers(file, find(&root, name, &apart)));
-    let nm = nm?;
-    let processed = processed?;
-    let sample = sample?;
+    let all = |name: &str| {
+        let mut found = Vec::new();
+        places(&mut vec![&root], name, &apart, &mut found);
+        found.iter().map(|place| resolved(place)).collect::<Vec<Option<&Element>>>()
+    };
+    let first = |name: &str| numbers(file, all(name).first().copied().flatten());
+    let nm = first("channelWavelengths")?;
+    let sample = first("pixelValues")?;
+    // Every step of processing has pixels of its own. The last step gives the result, which is that of the
+    // sample if nothing was processed.
+    let last = all("processedPixels").last().copied().flatten();
+    let last = last.filter(|element| element.name == "processedPixels");
+    let processed = numbers(file, last)?;
     let [white, dark] = [white_element, dark_element].map(|element| {
         numbers(file, element.and_then(|element| find(element, "pixelValues", &[])))
     });
@@ -211,6 +219,57 @@ pub(super) fn read_procspec(
 
 fn numbers(file: &str, element: Option<&Element>) -> Result<Vec<(usize, f64)>, InstrumentError> {
     element.map_or_else(|| Ok(Vec::new()), |element| doubles(file, element))
+}
+
+/// Finds every descendant called `name` outside the elements `apart`, each with the elements that hold it,
+/// from the root on. `within` holds the elements down to the one that we search.
+fn places<'a>(
+    within: &mut Vec<&'a Element>,
+    name: &str,
+    apart: &[&str],
+    found: &mut Vec<Vec<&'a Element>>,
+) {
+    let Some(element) = within.last().copied() else { return };
+    for child in &element.children {
+        within.push(child);
+        if child.name == name {
+            found.push(within.clone());
+        } else if !apart.contains(&child.name.as_str()) {
+            places(within, name, apart, found);
+        }
+        within.pop();
+    }
+}
+
+/// References that refer to references are followed so often.
+const MOST_REFERENCES: usize = 16;
+
+/// The element at a place, or the one that its attribute `reference` names. XStream, which wrote the file,
+/// writes an object once and then refers to it by a path such as `../../b/c[2]`. `None` if there is no
+/// such element.
+fn resolved<'a>(place: &[&'a Element]) -> Option<&'a Element> {
+    let mut place = place.to_vec();
+    for _ in 0..MOST_REFERENCES {
+        let element = *place.last()?;
+        let Some(path) = element.attribute("reference") else { return Some(element) };
+        if path.starts_with('/') {
+            place.truncate(1);
+        }
+        // The first part of an absolute path is the root itself.
+        let skipped = if path.starts_with('/') { 2 } else { 0 };
+        for part in path.split('/').skip(skipped) {
+            if part == ".." {
+                place.pop();
+                continue;
+            }
+            let (name, number) = match part.split_once('[') {
+                Some((name, number)) => (name, number.trim_end_matches(']').parse().ok()?),
+                None => (part, 1_usize),
+            };
+            place.push(place.last()?.all(name).nth(number.checked_sub(1)?)?);
+        }
+    }
+    None
 }
 
 /// The first descendant called `name` outside the elements `apart`.
@@ -337,6 +396,34 @@ pub(super) mod tests {
         assert_eq!(found[0].details[0].1, "Anna");
         let lamp = read_procspec("f", &procspec("com.AbsoluteIrradianceProcessor")).unwrap();
         assert_eq!(lamp[0].quantity, MeasuredQuantity::Power);
+    }
+
+    #[test]
+    fn references_between_steps_of_processing_are_followed() {
+        let steps = format!(
+            "<steps><step><processedPixels reference=\"../../../source/pixelValues\"/></step>\
+             <step>{}</step>\
+             <step><processedPixels reference=\"../../step[2]/processedPixels\"/></step></steps>",
+            list("processedPixels", &[10.0, 50.0])
+        );
+        let plain = xml("Reflection");
+        let (before, _) = plain.split_once("<processedPixels>").unwrap();
+        let of = |steps: &str| {
+            let text = format!("{before}{steps}</com.Processed>");
+            read_procspec("red.ProcSpec", &archive(&[("ps_0.xml", text.as_bytes())])).unwrap()
+        };
+        let found = of(&steps);
+        assert_eq!(found[0].values, [10.0, 50.0]);
+        assert_eq!(found[0].quantity, MeasuredQuantity::Unstated);
+        let absolute = steps.replace("../../step[2]", "/com.Processed/steps/step[2]");
+        assert_eq!(of(&absolute), found);
+        // A step that refers to the counts of the sample has not processed them.
+        let raw = "<processedPixels reference=\"../source/pixelValues\"/>";
+        assert_eq!(of(raw)[0].quantity, MeasuredQuantity::Counts);
+        for bad in ["../nowhere", "../processedPixels", "../step[0]", "[x]", "", ".."] {
+            let raw = format!("<processedPixels reference=\"{bad}\"/>");
+            assert_eq!(of(&raw)[0].quantity, MeasuredQuantity::Counts, "{bad}");
+        }
     }
 
     #[test]

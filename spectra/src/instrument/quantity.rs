@@ -239,6 +239,19 @@ impl MeasuredQuantity {
                 return Transmittance;
             }
         }
+        // `GR8 0+3 (QNTM)`: no name of a paint holds a unit of photons in brackets.
+        let bracketed =
+            text.split(['(', '[']).skip(1).filter_map(|rest| rest.split([')', ']']).next());
+        let is_of_photons = |unit: &str| {
+            let words = words_of(unit);
+            let all = words.iter().all(|word| {
+                NEUTRAL.contains(&word.as_str()) || word.parse::<f64>().is_ok() || is_photons(word)
+            });
+            all && words.iter().any(|word| is_photons(word))
+        };
+        if bracketed.into_iter().any(is_of_photons) {
+            return Photons;
+        }
         Unstated
     }
 
@@ -275,6 +288,29 @@ impl MeasuredQuantity {
             stated => stated,
         })
     }
+}
+
+fn is_photons(word: &str) -> bool {
+    BESIDE_OTHERS.iter().any(|(known, quantity)| word == *known && *quantity == Photons)
+}
+
+/// Whether a text states that values are in percent: by a word or a sign that does not follow a number, as
+/// in `50% tint` or `100 % abundance`.
+pub(super) fn states_percent(text: &str) -> bool {
+    let lower = text.to_lowercase();
+    let mut signs = lower.match_indices('%').chain(lower.match_indices("percent"));
+    signs.any(|(at, _)| {
+        let before = lower[..at].trim_end().chars().last();
+        !before.is_some_and(|letter| letter.is_ascii_digit())
+    })
+}
+
+/// Whether a line above a table states that its values are in percent. It must speak of a quantity, or of
+/// units only.
+pub(super) fn line_states_percent(line: &str) -> bool {
+    let is_of_units = |word: &String| NEUTRAL.contains(&word.as_str()) || word == "y";
+    states_percent(line)
+        && (MeasuredQuantity::of_words(line) != Unstated || words_of(line).iter().all(is_of_units))
 }
 
 /// The words of `text` in small letters. `SpectralReflectance` and `spectral_reflectance` have two.
@@ -400,6 +436,43 @@ mod tests {
             ("Reflectance std", Deviation),
             ("value", Unstated),
             ("intensity", Unstated),
+        ] {
+            assert_eq!(MeasuredQuantity::of_words(text), wanted, "{text}");
+        }
+    }
+
+    #[test]
+    fn percent_is_a_unit_only_where_no_number_stands_before_it() {
+        for (text, wanted) in [
+            ("Reflectance[%]", true),
+            ("%R", true),
+            ("Red %", true),
+            ("Reflectance (percent)", true),
+            ("Y Units: %", true),
+            ("50% tint", false),
+            ("100 % abundance", false),
+            ("Reflectance", false),
+        ] {
+            assert_eq!(states_percent(text), wanted, "{text}");
+        }
+        for (text, wanted) in [
+            ("Y Units: Reflectance (percent)", true),
+            ("Units: %", true),
+            ("100% abundance of quartz", false),
+            ("humidity in %", false),
+            ("Reflectance of 100% cotton", false),
+        ] {
+            assert_eq!(line_states_percent(text), wanted, "{text}");
+        }
+    }
+
+    #[test]
+    fn photons_are_found_in_brackets() {
+        for (text, wanted) in [
+            ("REM: GR8 0+3           (QNTM)", Photons),
+            ("lamp [umol m-2 s-1]", Photons),
+            ("Cadmium Red (quantum dots)", Unstated),
+            ("Blue (raw)", Unstated),
         ] {
             assert_eq!(MeasuredQuantity::of_words(text), wanted, "{text}");
         }

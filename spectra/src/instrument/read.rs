@@ -9,6 +9,7 @@ use super::format::{ContentKind, FileText, Format};
 use super::measured::{
     ChoiceError, InstrumentError, MeasuredSpectrum, choose_spectrum, split_file_and_name,
 };
+use super::stated::{StatedValues, bare_values};
 use super::{
     avantes, cgats, columns, cxf, field_spectrometers, jcamp, light_meters, long_table,
     ocean_optics, qtx,
@@ -23,8 +24,83 @@ pub struct InstrumentFile {
     pub spectra: Vec<MeasuredSpectrum>,
 }
 
+/// What you know about files that do not say it themselves, or say it wrongly. The defaults read every file
+/// as it describes itself.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct FileOptions {
+    /// The format. Default: detected from the content.
+    pub format: Option<Format>,
+    /// The quantity of the values. Default: what the file states.
+    pub values: Option<StatedValues>,
+    /// Wavelengths in nm of values that stand without theirs. Each occurs once.
+    pub wavelengths_nm: Option<Vec<f64>>,
+}
+
 /// Reads the spectra in `bytes`, the content of `file`. If you pass no format, this detects it.
 pub fn read(
+    file: &str,
+    bytes: &[u8],
+    format: Option<Format>,
+) -> Result<InstrumentFile, InstrumentError> {
+    read_with(file, bytes, &FileOptions { format, ..FileOptions::default() })
+}
+
+/// Reads the spectra in `bytes`, the content of `file`, with what you know about the file.
+///
+/// # Errors
+/// [`InstrumentError`] with the line. Wavelengths are refused if the file states its own.
+///
+/// ```
+/// use spectra::WavelengthList;
+/// use spectra::instrument::{FileOptions, read_with};
+///
+/// let list = WavelengthList::named("400..600:100")?;
+/// let options = FileOptions { wavelengths_nm: Some(list.nm), ..FileOptions::default() };
+/// let found = read_with("red.txt", b"Red\t0.1\t0.2\t0.6\n", &options)?;
+/// assert_eq!(found.spectra[0].name, "Red");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn read_with(
+    file: &str,
+    bytes: &[u8],
+    options: &FileOptions,
+) -> Result<InstrumentFile, InstrumentError> {
+    let mut found = match &options.wavelengths_nm {
+        Some(nm) => read_bare_values(file, bytes, options.format, nm)?,
+        None => read_spectra(file, bytes, options.format)?,
+    };
+    if let Some(values) = options.values {
+        found.spectra.iter_mut().for_each(|spectrum| values.apply(spectrum));
+    }
+    Ok(found)
+}
+
+/// Reads values whose wavelengths are `nm`.
+fn read_bare_values(
+    file: &str,
+    bytes: &[u8],
+    format: Option<Format>,
+    nm: &[f64],
+) -> Result<InstrumentFile, InstrumentError> {
+    let has_wavelengths = || InstrumentError::NotRead {
+        file: file.to_owned(),
+        kind: "a file that states its own wavelengths",
+        way: "leave out [wavelengths]",
+    };
+    let text = FileText::of(file, bytes)?.ok_or_else(has_wavelengths)?;
+    let found = format.or_else(|| Format::detect(&text.file, &text.text));
+    if found.is_some_and(|format| !matches!(format, Format::Columns | Format::Workbook)) {
+        return Err(has_wavelengths());
+    }
+    let format = if text.is_sheet { Format::Workbook } else { Format::Columns };
+    let mut found = checked(file, format, bare_values::read(&text.file, &text.text, nm)?)?;
+    for spectrum in &mut found.spectra {
+        spectrum.remarks.extend(text.remark.clone());
+    }
+    Ok(found)
+}
+
+fn read_spectra(
     file: &str,
     bytes: &[u8],
     format: Option<Format>,
@@ -256,5 +332,17 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_file_that_names_its_instrument_states_its_geometry() {
+        let text = "CGATS.17\nORIGINATOR \"i1Pro lab\"\nINSTRUMENTATION \"i1Pro\"\n\
+            NUMBER_OF_FIELDS 4\nBEGIN_DATA_FORMAT\nSAMPLE_ID SPEC_400 SPEC_500 SPEC_600\n\
+            END_DATA_FORMAT\nNUMBER_OF_SETS 1\nBEGIN_DATA\nA 0.1 0.2 0.3\nEND_DATA\n";
+        let of =
+            |text: &str| read("f", text.as_bytes(), None).unwrap().spectra[0].stated_geometry();
+        assert_eq!(of(text).unwrap().words, "i1Pro");
+        // Who measured says nothing.
+        assert_eq!(of(&text.replace("INSTRUMENTATION \"i1Pro\"", "DESCRIPTOR \"i1Pro\"")), None);
     }
 }

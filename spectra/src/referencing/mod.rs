@@ -386,6 +386,9 @@ pub enum Tile {
     Measured(IrregularSpectrum),
 }
 
+/// A tile in percent that reflects no more than this fraction was written as fractions.
+const LEAST_TILE: f64 = 0.012;
+
 impl Tile {
     /// A tile that reflects the fraction `value` at every wavelength.
     ///
@@ -415,6 +418,11 @@ impl Tile {
         }
         let scale = if spectrum.is_percent() { 0.01 } else { 1.0 };
         let values: Vec<f64> = spectrum.values.iter().map(|value| value * scale).collect();
+        let largest = values.iter().copied().fold(0.0, f64::max);
+        if spectrum.is_percent() && largest <= LEAST_TILE {
+            let name = spectrum.name.clone();
+            return Err(ReferencingError::DarkTile { name, percent: 100.0 * largest });
+        }
         for (&value, nm) in values.iter().zip(&spectrum.wavelengths_nm) {
             if VISIBLE_NM.contains(nm) {
                 Self::even(value)?;
@@ -532,6 +540,17 @@ pub enum ReferencingError {
         name: String,
         /// Quantity of the spectrum.
         found: MeasuredQuantity,
+    },
+    /// The file states percent, but holds fractions.
+    #[error("the tile `{name}` is stated in percent and reflects at most {percent:.3} %")]
+    #[hint(
+        "its values are fractions: take the percent sign out of its heading, or give a fraction, such as [tile=0.99]"
+    )]
+    DarkTile {
+        /// Name of the tile's spectrum.
+        name: String,
+        /// Its largest reflectance in percent.
+        percent: f64,
     },
     /// Counts and power are mixed.
     #[error("the {role} `{name}` must be {expected} like the sample, found `{found}`")]
@@ -651,6 +670,16 @@ pub enum ReferencingError {
 mod tests {
     use super::*;
     use crate::instrument::{MeasuredQuantity, Role, Unit};
+
+    #[test]
+    fn a_tile_that_is_stated_in_percent_and_holds_fractions_is_refused() {
+        let text = b"nm\tReflectance[%]\n400\t0.99\n500\t0.98\n700\t0.99\n";
+        let tile = crate::instrument::read("tile", text, None).unwrap().spectra.remove(0);
+        let refused = Tile::measured(&tile).unwrap_err();
+        assert!(matches!(refused, ReferencingError::DarkTile { .. }), "{refused}");
+        let values = tile.values.iter().map(|value| 100.0 * value).collect();
+        assert!(Tile::measured(&MeasuredSpectrum { values, ..tile }).is_ok());
+    }
 
     #[test]
     fn integration_times_of_several_makers_are_parsed() {

@@ -66,7 +66,8 @@ pub(crate) struct Report {
 
 impl Report {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
-        let request = ReportRequest { viewing: self.viewing.viewing()?, ..self.request.request()? };
+        let request =
+            ReportRequest { viewing: self.viewing.viewing(console)?, ..self.request.request()? };
         let (path, _) = split(&self.words, true);
         let ChosenLibrary { library, path } = chosen(path.as_deref(), console)?;
         remark_coverage(library.grid, console)?;

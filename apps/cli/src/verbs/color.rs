@@ -14,7 +14,7 @@ use super::against::Against;
 use crate::console::Console;
 use crate::csv_rows::{TableColors, rounded};
 use crate::failure::{Failure, Result};
-use crate::readings::{ReadingOptions, remark_coverage, spectra, viewing};
+use crate::readings::{ReadingOptions, remark_color, spectra, viewing};
 use spectra::TristimulusWeights;
 use spectra::color::{
     Adaptation, ColorDifferences, Lab, Rgb, RgbSpace, RgbSpace as ColorTableRgbSpace, Whiteness,
@@ -102,7 +102,7 @@ impl Color {
         let lights = self
             .illuminant
             .iter()
-            .map(|light| viewing(light, &self.observer))
+            .map(|light| viewing(light, &self.observer, console))
             .collect::<Result<Vec<Viewing>>>()?;
         self.files.iter().try_for_each(|file| refuse_sample(file))?;
         if !self.against.is_empty() {
@@ -118,7 +118,7 @@ impl Color {
             return against.run(console);
         }
         let table = spectra(&self.files, &self.reading, console)?;
-        remark_coverage(table.grid, console)?;
+        remark_color(table.grid, console)?;
         let weights = lights
             .iter()
             .map(|viewing| viewing.weights(table.grid))

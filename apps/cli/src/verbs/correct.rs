@@ -94,7 +94,8 @@ impl Correct {
         let made = amounts("--made", &self.made)?;
         let grams = self.grams.unwrap_or_else(|| made.iter().map(|(_, grams)| grams).sum());
         let batch = Batch { made, grams, reflectance: self.batch_spectrum(pot, console)? };
-        let conditions = self.illuminant.iter().map(|text| condition(text, &self.observer));
+        let conditions =
+            self.illuminant.iter().map(|text| condition(text, &self.observer, console));
         let conditions = conditions.collect::<Result<_>>()?;
         let mut request = self.request.clone();
         let stock = amounts("--stock", &request.take("stock"))?;

@@ -56,7 +56,7 @@ impl Fit {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let start = Instant::now();
         let provenance = self.provenance.request()?;
-        let request = self.options.request(self.viewing.viewing()?)?;
+        let request = self.options.request(self.viewing.viewing(console)?)?;
         let request = FitRequest { provenance, ..request };
         let output = self
             .output

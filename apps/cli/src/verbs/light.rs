@@ -2,24 +2,26 @@
 
 use clap::Args;
 use serde_json::{Map, Value, json};
-use spectra::{
-    ColorRendering, Grid, Illuminant, Interpolation, Observer, TristimulusWeights, light_from_text,
-};
+use spectra::{ColorRendering, Grid, Illuminant, Interpolation, Observer, TristimulusWeights};
 
 use crate::console::Console;
 use crate::failure::Result;
+use crate::readings::{self, KnownOptions};
 
 /// Describe lights: chromaticity, colour temperature and colour rendering
 ///
 /// Ra and R1 to R14 are the indices of CIE 13.3-1995; Rf and Rg are fidelity and gamut of ANSI/IES
 /// TM-30-18, and Rf is also that of CIE 224:2017. A lamp is compared with a black body or daylight of its
 /// correlated colour temperature (CCT); Duv is its distance from the black body, above 0 greener.
+/// A measured lamp is interpolated by its smoothness: by Sprague's polynomial, or linearly if it has lines.
 #[derive(Debug, Args)]
 pub(crate) struct Light {
     /// Lights: a CIE illuminant (A, FL11, LED-B3 ..), 2700K, D5600K, or a lamp's file (an instrument's,
     /// FILE#NAME for one of several spectra, or lines `nm,power`)
     #[arg(required = true, value_name = "LIGHT")]
     lights: Vec<String>,
+    #[command(flatten)]
+    known: KnownOptions,
     /// Print also R1 to R14, and Rf by 16 bins of hue
     #[arg(long)]
     samples: bool,
@@ -38,12 +40,14 @@ const R9: usize = 8;
 
 impl Light {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
+        let known = self.known.options(console)?;
         let lights = self
             .lights
             .iter()
             .map(|text| {
-                let light = light_from_text(text)?;
+                let light = readings::light(text, &known, console)?;
                 let rendering = ColorRendering::of(&light)?;
+                console.warnings(&rendering.remarks)?;
                 Ok(Described { xy: chromaticity(&light)?, light, rendering })
             })
             .collect::<Result<Vec<Described>>>()?;
@@ -82,7 +86,7 @@ struct Described {
 
 impl Described {
     fn json(&self) -> Value {
-        let ColorRendering { temperature, index, fidelity } = &self.rendering;
+        let ColorRendering { temperature, index, fidelity, .. } = &self.rendering;
         json!({
             "light": self.light.name(),
             "kelvin": temperature.kelvin,
@@ -151,7 +155,7 @@ fn print(lights: &[Described], console: &mut Console<'_>) -> Result<()> {
     console.line(format!("{:width$}{headings}", "light"))?;
     let mut far = false;
     for Described { light, xy: [x, y], rendering } in lights {
-        let ColorRendering { temperature, index, fidelity } = rendering;
+        let ColorRendering { temperature, index, fidelity, .. } = rendering;
         let mark = if index.is_meant() { "" } else { "*" };
         far |= !index.is_meant();
         console.line(

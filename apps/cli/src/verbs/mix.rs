@@ -44,7 +44,7 @@ pub(crate) struct Mix {
 
 impl Mix {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
-        let viewing = self.viewing.viewing()?;
+        let viewing = self.viewing.viewing(console)?;
         let (path, recipe) = split(&self.words, false);
         let ChosenLibrary { library, .. } = chosen(path.as_deref(), console)?;
         let parts = parsed_recipe(recipe, &library)?;

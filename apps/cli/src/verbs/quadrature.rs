@@ -56,7 +56,7 @@ const FILMS: [&str; 2] = ["film over a random ground", "films over random ground
 
 impl Quadrature {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
-        let viewing = self.viewing.viewing()?;
+        let viewing = self.viewing.viewing(console)?;
         let library = named_or_default(self.library.as_deref())?.map(|(_, library)| library);
         let request = QuadratureRequest { viewing, ..self.request.request()? };
         let needs_library =

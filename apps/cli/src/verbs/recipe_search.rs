@@ -151,7 +151,7 @@ impl Match {
             (true, Metric::Ciede2000 | Metric::Cie1976) => &["D65"],
         };
         let lights = self.illuminant.iter().map(String::as_str).chain(usual.iter().copied());
-        let conditions = lights.map(|text| condition(text, &self.observer));
+        let conditions = lights.map(|text| condition(text, &self.observer, console));
         let with = with.iter().map(|text| required(text, library));
         Ok(MatchRequest {
             conditions: conditions.collect::<Result<_>>()?,

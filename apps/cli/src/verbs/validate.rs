@@ -55,7 +55,7 @@ impl Validate {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let start = Instant::now();
         let options = ValidationRequest {
-            fit: self.options.request(self.viewing.viewing()?)?,
+            fit: self.options.request(self.viewing.viewing(console)?)?,
             ..self.validation.request()?
         };
         if options.folds.is_some_and(|folds| folds < 2) {

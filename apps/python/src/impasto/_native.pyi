@@ -47,6 +47,8 @@ class Light:
     @property
     def name(self) -> str: ...
     @property
+    def remarks(self) -> list[str]: ...
+    @property
     def wavelengths(self) -> Floats: ...
     @property
     def power(self) -> Floats: ...
@@ -92,6 +94,8 @@ class Readings:
         format: str | None,
         percent: bool | None,
         transmittance: bool,
+        values: str | None,
+        wavelengths: str | list[float] | None,
         references: tuple[str, list[str], str | None] | None,
         spectra_only: bool,
     ) -> Readings: ...

@@ -136,7 +136,7 @@ def fit(
     *,
     reference: str | None = None,
     surface: Surface | Library | None = None,
-    specular: bool = True,
+    specular: bool | None = None,
     amounts: str = "relative",
     method: str = "refined",
     smoothness: float | None = None,
@@ -153,7 +153,9 @@ def fit(
     """Fits K and S of every pigment, as `impasto fit` does.
 
     `reference` is the white whose S is 1 (default: the commonest white). `surface` is chosen if none is
-    given; a library gives its own, so that both can be merged. `amounts` is `relative` or `absolute`, `method` `refined`, `weighted` or `qp`. Light and
+    given; a library gives its own, so that both can be merged. `specular` says whether the readings
+    include the specular reflection (default: as the files say, else yes). `amounts` is `relative` or
+    `absolute`, `method` `refined`, `weighted` or `qp`. Light and
     observer set the colour errors only. `progress` is called with each stage as text. Ctrl-C ends the fit.
 
     Raises `FitError`; findings about the data are told as `FindingWarning`.
@@ -172,7 +174,7 @@ def validate(
     using: Sequence[str] = (),
     reference: str | None = None,
     surface: Surface | Library | None = None,
-    specular: bool = True,
+    specular: bool | None = None,
     amounts: str = "relative",
     method: str = "refined",
     smoothness: float | None = None,
@@ -210,7 +212,7 @@ def _request(given: dict[str, Any]) -> dict[str, Any]:
     keys = ["amounts", "method", "reference", "below_surface"]
     request = {key: given[key] for key in keys} | {
         "surface": f"{surface.k1},{surface.k2}" if isinstance(surface, Surface) else None,
-        "specular": "included" if given["specular"] else "excluded",
+        "specular": {None: None, True: "included", False: "excluded"}[given["specular"]],
         "exclude": list(given["exclude"]),
         "provenance": {key: given.get(key) for key in ["title", "licence", "source"]},
     }

@@ -32,6 +32,11 @@ class Light:
         return self._native.name
 
     @property
+    def remarks(self) -> list[str]:
+        """How the file of a lamp was read: its interpolation, and photons that became power."""
+        return self._native.remarks
+
+    @property
     def wavelengths(self) -> Floats:
         """360 to 830 nm."""
         return self._native.wavelengths

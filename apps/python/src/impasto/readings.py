@@ -162,6 +162,8 @@ def read(
     format: str | None = None,
     percent: bool | None = None,
     transmittance: bool = False,
+    values: str | None = None,
+    wavelengths: PathLike | Sequence[float] | None = None,
     white_reading: str | None = None,
     dark_reading: str | Sequence[str] = (),
     tile: str | float | None = None,
@@ -170,7 +172,9 @@ def read(
     """Reads one or more files of an instrument or measurement CSVs.
 
     `recipes` is a file of recipes, where the readings have none. `pigments` names the columns that are
-    pigments. `percent` states the unit of the readings. Counts need `white_reading`, and usually
+    pigments. `percent` states the unit of the readings. `values` states their quantity where headings
+    mislead: reflectance, percent, fraction, absorbance, k/s or counts. `wavelengths` names those of files
+    that hold values only: numbers in nm, "380..730:10", or a file of them. Counts need `white_reading`, and usually
     `dark_reading` (`"0"` where it is subtracted already); `tile` is the white's own reflectance.
     `spectra_only` reads spectra and ignores recipes.
 
@@ -191,10 +195,18 @@ def read(
         format,
         percent,
         transmittance,
+        values,
+        _wavelengths(wavelengths),
         references,
         spectra_only,
     )
     return Readings(native)._told()
+
+
+def _wavelengths(wavelengths: PathLike | Sequence[float] | None) -> str | list[float] | None:
+    if wavelengths is None or isinstance(wavelengths, (str, os.PathLike)):
+        return None if wavelengths is None else os.fspath(wavelengths)
+    return [float(nm) for nm in wavelengths]
 
 
 def _names(names: Sequence[str] | None) -> list[str] | None:

@@ -10,7 +10,7 @@ let files = [];
 // Ends when the files are read, with the options as they are.
 let reading = Promise.resolve();
 // Options that change how files are read.
-const READING = ["o-percent", "o-format", "o-pigments", "o-recipes", "o-transmittance", ...COUNTS];
+const READING = ["o-percent", "o-format", "o-pigments", "o-recipes", "o-transmittance", "o-values", "o-wavelengths", ...COUNTS];
 
 export function startFit() {
   takesDrops($("readings-drop"), take);
@@ -59,6 +59,8 @@ function readingOptions() {
     format: format || null,
     percent: percent === "" ? null : percent === "true",
     transmittance: $("o-transmittance").checked,
+    values: $("o-values").value || null,
+    wavelengths: $("o-wavelengths").value.trim() || null,
     pigments: pigments.length ? pigments : null,
   };
 }
@@ -105,7 +107,7 @@ function fitRequest() {
   const text = (id) => $(id).value.trim();
   return {
     amounts: text("o-amounts"), method: text("o-method"), reference: text("o-reference") || null,
-    surface: surface(), specular: text("o-specular"),
+    surface: surface(), specular: text("o-specular") || null,
     below_surface: text("o-below") || null,
     smoothness: number($("o-smoothness"), "Smoothness"),
     unevenness: number($("o-unevenness"), "Unevenness"),

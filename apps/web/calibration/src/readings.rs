@@ -5,6 +5,8 @@ use calibrate::{ReadingFormat, ReadingOptions};
 use js_sys::{Array, JsString, Uint8Array};
 use serde::Deserialize;
 use serde_json::json;
+use spectra::WavelengthList;
+use spectra::instrument::StatedValues;
 use wasm_bindgen::prelude::*;
 
 use crate::counts::{GivenFiles, References};
@@ -18,18 +20,34 @@ struct Options {
     percent: Option<bool>,
     transmittance: bool,
     pigments: Option<Vec<String>>,
+    /// Name of the quantity of the values.
+    values: Option<String>,
+    /// `380..730:10`, or a list of wavelengths as text.
+    wavelengths: Option<String>,
     references: Option<References>,
 }
 
 impl Options {
     fn read(json: &str) -> Result<ReadingOptions> {
-        let Self { format, percent, transmittance, pigments, references } = request(json)?;
+        let Self { format, percent, transmittance, pigments, values, wavelengths, references } =
+            request(json)?;
         let format = format.map(|name| {
             ReadingFormat::named(&name).ok_or_else(|| {
                 let known: Vec<&str> = ReadingFormat::names().collect();
                 let hint = format!("formats are {}", known.join(", "));
                 setting(&format!("unknown format `{name}`"), &hint)
             })
+        });
+        let values = values.map(|name| {
+            StatedValues::named(&name).ok_or_else(|| {
+                let known = StatedValues::ALL.map(StatedValues::name).join(", ");
+                setting(&format!("unknown quantity `{name}`"), &format!("quantities are {known}"))
+            })
+        });
+        let wavelengths = wavelengths.map(|text| match WavelengthList::of_range(&text) {
+            Ok(None) => WavelengthList::from_text("wavelengths", &text),
+            Ok(Some(list)) => Ok(list),
+            Err(error) => Err(error),
         });
         Ok(ReadingOptions {
             format: format.transpose()?,
@@ -40,6 +58,8 @@ impl Options {
             },
             pigments,
             transmittance_is_reflectance: transmittance,
+            values: values.transpose()?,
+            wavelengths_nm: wavelengths.transpose().told()?.map(|list| list.nm),
             references: references.map(References::files),
         })
     }

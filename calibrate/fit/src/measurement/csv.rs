@@ -91,7 +91,9 @@ impl MeasurementTable {
         remarks.extend(table.left_out.clone());
         remarks.extend(noise);
         let has_replicates = table.columns.contains(&Column::Replicate);
-        Ok((Self { pigments, grid, resampled_from, scale, readings, remarks }, has_replicates))
+        let geometry = table.geometry();
+        let table = Self { pigments, grid, resampled_from, scale, geometry, readings, remarks };
+        Ok((table, has_replicates))
     }
 
     /// Tells apart the readings of one name that are no repeated readings, and says which are averaged.

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use documents::name_list;
 use spectra::csv_table::{CellPlace, CsvTableError, RowNumbers, wavelength_of_header};
 use spectra::headings::{is_guessed_name, is_wavelength, name_rank};
-use spectra::instrument::{FileText, deviations};
+use spectra::instrument::{FileText, StatedGeometry, deviations};
 
 use super::column::{
     Column, TableKind, columns, excludes_specular, is_known, is_wavelength_heading,
@@ -336,6 +336,19 @@ impl CsvRows {
             }
         }
         Ok(Reading { amounts: amounts.into(), reflectance: reflectance.into(), ..reading })
+    }
+
+    /// The geometry that all headings of wavelengths name, as in `SCE 400nm`.
+    pub(super) fn geometry(&self) -> Option<StatedGeometry> {
+        let headings = self.headers.iter().zip(&self.columns);
+        let mut of_readings = headings
+            .filter(|(_, column)| matches!(column, Column::Wavelength(_)))
+            .map(|(heading, _)| StatedGeometry::of_words(heading));
+        let first = of_readings.next()??;
+        let agree = of_readings.all(|other| {
+            other.is_some_and(|other| other.includes_specular == first.includes_specular)
+        });
+        agree.then_some(first)
     }
 }
 

@@ -70,7 +70,7 @@ pub enum MeasurementError {
     /// A header is a number outside the wavelengths at which paint is measured.
     #[error("{0} is not a wavelength from 200 to 2500 nm")]
     #[hint(
-        "if it is a pigment, name it: [pigments={}], once for each pigment; a file of recipes may have such a column too",
+        "if it is a pigment, name it: [pigments={}], once for each pigment; a file of recipes may have such a column too. If the file holds values only, name their wavelengths: [wavelengths=380..730:10]",
         _0.column
     )]
     WavelengthRange(CellPlace),
@@ -323,7 +323,17 @@ pub enum MeasurementError {
         if *quantity == MeasuredQuantity::Transmittance,
         "if it was read over a white tile, set [as_reflectance]"
     )]
-    #[hint("export reflectance from the instrument's program")]
+    #[hint(
+        if *quantity == MeasuredQuantity::Absorbance,
+        "if it is the absorbance of a reflectance, set [values=absorbance]; if the heading misleads, [values=reflectance]"
+    )]
+    #[hint(
+        if *quantity == MeasuredQuantity::KubelkaMunk,
+        "to turn K/S into reflectance, set [values=k/s]; if the heading misleads, [values=reflectance]"
+    )]
+    #[hint(
+        "export reflectance from the instrument's program; if the heading misleads, set [values=reflectance]"
+    )]
     NoReflectance {
         /// File name as the caller gave it.
         file: String,

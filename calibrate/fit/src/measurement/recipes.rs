@@ -340,7 +340,7 @@ pub enum RecipesError {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measurement::table::ScaleChoice;
+    use crate::measurement::ScaleChoice;
 
     const FORM: &str = "sample,film,backing,replicate,White,Red,400,500\n\
         card,none,white,1,,,,\ncard,none,black,1,,,,\n\

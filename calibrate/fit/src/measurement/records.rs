@@ -10,7 +10,7 @@ use super::scale::{
     DarkReadings, MEASURABLE_NM, SOUND, Scale, ScaleChoice, is_reflectance, just_below_zero,
     left_out, may_be_left_out, outside_remark, without_ends,
 };
-use super::table::{Film, MeasurementTable, Reading, grid_of, on_grid};
+use super::table::{Film, MeasurementTable, Reading, grid_of, on_grid, one_geometry};
 use spectra::csv_table::CellPlace;
 
 /// Treatment of an instrument's spectra.
@@ -63,6 +63,12 @@ impl MeasurementTable {
             (grid, count)
         };
         remarks.extend(repeated(&spectra));
+        let stated = spectra.iter().filter_map(|spectrum| spectrum.record.stated_geometry());
+        let (geometry, agree) = one_geometry(stated.collect());
+        if !agree {
+            let mixed = "some spectra hold the specular reflection and others do not";
+            remarks.push(mixed.to_owned());
+        }
         let resampled = alike && Grid::through(&first.wavelengths_nm).is_none();
         let readings = spectra.into_iter().map(|spectrum| Reading {
             file: file.into(),
@@ -80,6 +86,7 @@ impl MeasurementTable {
             grid,
             resampled_from: resampled.then_some(count),
             scale,
+            geometry,
             readings: readings.collect(),
             remarks,
         })
@@ -179,6 +186,8 @@ fn scale(
 ) -> Result<(Scale, Option<String>), MeasurementError> {
     let stated = |record: &MeasuredSpectrum| match (choice, record.unit) {
         (ScaleChoice::Known(scale), _) => Some(scale),
+        // The reader of the file converts the values.
+        (ScaleChoice::Converted(_), _) => Some(Scale::Fraction),
         (ScaleChoice::ByFile, Unit::Percent) => Some(Scale::Percent),
         (ScaleChoice::ByFile, Unit::Fraction) => Some(Scale::Fraction),
         (ScaleChoice::ByFile, Unit::Unstated) => None,
@@ -192,7 +201,22 @@ fn scale(
             dark.add(spectrum.record.line as u64, &spectrum.record.name, spectrum.largest());
         }
     }
-    Ok((spectra[0].scale, dark.checked(file)?))
+    let dark = match choice {
+        ScaleChoice::ByFile => dark.checked(file)?.or_else(|| all_below_one(spectra)),
+        _ => None,
+    };
+    Ok((spectra[0].scale, dark))
+}
+
+/// A remark if all spectra are stated in percent, and no value exceeds 1.
+fn all_below_one(spectra: &[Spectrum<'_>]) -> Option<String> {
+    let are_percent = spectra.iter().all(|spectrum| spectrum.record.unit == Unit::Percent);
+    let largest = spectra.iter().map(Spectrum::largest).fold(0.0, f64::max);
+    (are_percent && largest > 0.0 && largest <= 1.2).then(|| {
+        format!(
+            "the file states percent, but no value exceeds {largest}: it is read as nearly black; set [fraction] if white is near 1, or [percent]"
+        )
+    })
 }
 
 impl Spectrum<'_> {
@@ -415,5 +439,20 @@ mod tests {
         };
         assert_eq!(of("0123").unwrap().readings[0].reflectance[0], 0.0075);
         assert!(matches!(of("012"), Err(MeasurementError::MixedScale { .. })));
+    }
+
+    #[test]
+    fn a_heading_in_percent_above_fractions_is_told() {
+        let text = "nm\tReflectance[%]\n400\t0.98\n500\t0.99\n600\t0.99\n700\t0.99\n";
+        let found = table(text).unwrap();
+        let told = &found.remarks[0];
+        assert!(told.contains("no value exceeds 0.99") && told.contains("[fraction]"), "{told}");
+        assert_eq!(found.scale, Scale::Percent);
+        assert!(table(&text.replace("0.9", "90.")).unwrap().remarks.is_empty());
+        let records = read("f.txt", text.as_bytes(), None).unwrap().spectra;
+        let scale = ScaleChoice::Known(Scale::Percent);
+        let choice = RecordChoice { scale, ..RecordChoice::default() };
+        let known = MeasurementTable::from_records("f.txt", &records, choice).unwrap();
+        assert!(known.remarks.is_empty(), "{:?}", known.remarks);
     }
 }

@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 
 use serde::{Deserialize, Serialize};
+use spectra::instrument::StatedValues;
 
 use super::error::MeasurementError;
 
@@ -118,6 +119,8 @@ pub enum ScaleChoice {
     ByFile,
     /// You know the unit.
     Known(Scale),
+    /// The values are another quantity, from which reflectance follows ([`StatedValues::conversion`]).
+    Converted(StatedValues),
 }
 
 impl Scale {

@@ -41,6 +41,14 @@ impl ScaledReadings {
         let mut remarks = Vec::new();
         let scale = match choice {
             ScaleChoice::Known(scale) => scale,
+            ScaleChoice::Converted(values) => {
+                if let Some((reflectance, words)) = values.conversion() {
+                    let all = readings.iter_mut().flat_map(|r| r.reflectance.iter_mut());
+                    all.for_each(|value| *value = reflectance(*value));
+                    remarks.push(words.to_owned());
+                }
+                Scale::Fraction
+            }
             ScaleChoice::ByFile if table.has_percent_cells => Scale::Percent,
             ScaleChoice::ByFile => {
                 let largest: Vec<f64> = readings.iter().map(|r| largest(r, &places)).collect();

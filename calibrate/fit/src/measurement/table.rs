@@ -5,6 +5,7 @@ use std::sync::Arc;
 use documents::hint::Explain;
 use documents::{name_list, question};
 use spectra::headings::plain;
+use spectra::instrument::StatedGeometry;
 use spectra::{Grid, IrregularSpectrum};
 
 use super::error::MeasurementError;
@@ -74,6 +75,8 @@ pub struct MeasurementTable {
     pub resampled_from: Option<usize>,
     /// Unit in which the file is written.
     pub scale: Scale,
+    /// Whether the readings hold the specular reflection, if the files say so.
+    pub geometry: Option<StatedGeometry>,
     /// Readings in order of the file. There is at least one.
     pub readings: Vec<Reading>,
     /// Decisions that we made while reading the file, in words for you.
@@ -90,6 +93,7 @@ impl MeasurementTable {
     pub fn joined(tables: Vec<Self>) -> Result<Self, MeasurementError> {
         let mut tables = tables.into_iter();
         let mut all = tables.next().ok_or_else(|| MeasurementError::Empty("no file".to_owned()))?;
+        let mut stated: Vec<StatedGeometry> = all.geometry.take().into_iter().collect();
         for mut table in tables {
             if table.grid != all.grid {
                 return Err(MeasurementError::Grid {
@@ -99,6 +103,7 @@ impl MeasurementTable {
                     wanted: all.grid.to_string(),
                 });
             }
+            stated.extend(table.geometry.take());
             let places: Vec<usize> = table
                 .pigments
                 .iter()
@@ -119,6 +124,7 @@ impl MeasurementTable {
             all.readings.append(&mut table.readings);
             all.remarks.append(&mut table.remarks);
         }
+        (all.geometry, _) = one_geometry(stated);
         let count = all.pigments.len();
         for reading in all.readings.iter_mut().filter(|reading| reading.amounts.len() < count) {
             let mut amounts = std::mem::take(&mut reading.amounts).into_vec();
@@ -127,6 +133,16 @@ impl MeasurementTable {
         }
         Ok(all)
     }
+}
+
+/// The geometry on which all of `stated` agree, and whether they do.
+pub(super) fn one_geometry(stated: Vec<StatedGeometry>) -> (Option<StatedGeometry>, bool) {
+    let mut stated = stated.into_iter();
+    let first = stated.next();
+    let agree = stated.all(|other| {
+        first.as_ref().is_some_and(|first| first.includes_specular == other.includes_specular)
+    });
+    (first.filter(|_| agree), agree)
 }
 
 const LISTED: usize = 8;

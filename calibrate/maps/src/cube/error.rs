@@ -12,6 +12,9 @@ pub enum CubeError {
     /// The operating system cannot read a file.
     #[error(transparent)]
     File(#[from] FileError),
+    /// The list of wavelengths is faulty.
+    #[error(transparent)]
+    Wavelengths(#[from] spectra::WavelengthListError),
     /// The file or folder is not a cube, or it is of a kind that we do not read.
     #[error("{}: {problem}", path.display())]
     #[hint("{way_out}")]

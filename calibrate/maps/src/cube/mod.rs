@@ -7,7 +7,6 @@
 
 mod error;
 mod options;
-mod wavelengths;
 mod window;
 mod interpret;
 mod raw_file;

@@ -112,7 +112,7 @@ pub struct CubeOptions {
     pub scale: CubeScale,
     /// Largest count of the detector, such as 4095 [default: guessed]
     pub full_scale: Option<f64>,
-    /// File with the wavelength of each band in nm, for scans that name none
+    /// Wavelengths of the bands, for scans that name none: a file, one a line, or 380..730:10
     #[schemars(with = "Option<String>")]
     pub wavelengths: Option<PathBuf>,
     /// Name of the array of a Zarr group that holds several

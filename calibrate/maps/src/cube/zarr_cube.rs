@@ -9,7 +9,6 @@ use serde_json::Value;
 
 use crate::cube::error::CubeError;
 use crate::cube::options::CubeOptions;
-use crate::cube::wavelengths::Wavelengths;
 use crate::cube::window::{Conversion, Opened, Pixels, Source, Values, Window};
 use crate::zarr::{ChunkError, ZarrArray, ZarrFault};
 
@@ -190,7 +189,7 @@ pub(crate) fn open(folder: &Path, options: &CubeOptions) -> Result<Opened, CubeE
     let mut nm = None;
     if is_zarr(&beside) && options.wavelengths.is_none() {
         let (values, unit) = coordinate(&beside, bands)?;
-        let found = Wavelengths::of(&values, unit.as_deref()).map_err(|problem| {
+        let found = spectra::WavelengthList::of(&values, unit.as_deref()).map_err(|problem| {
             let way_out = "save wavelengths in nm, with the attribute units = nm";
             CubeError::format(&beside, format!("the coordinate {problem}"), way_out)
         })?;

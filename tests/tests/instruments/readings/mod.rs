@@ -3,6 +3,7 @@
 //! names and wavelengths, lines above the table, falling wavelengths, decimal commas. Files with
 //! faults or with other quantities are refused with the place and a hint, and damaged bytes never
 //! make a reader panic.
+mod stated;
 mod workbooks;
 
 pub(super) use workbooks::workbook;
@@ -419,8 +420,10 @@ fn transmittance_is_reflectance_where_that_is_told() {
 #[test]
 fn spectra_on_different_wavelengths_are_brought_together_or_refused() {
     let short = color_of("two.qtx", "BAT_REFLLOW=400", "BAT_REFLLOW=500");
-    assert_eq!(short.status, 0, "{}", short.err);
-    assert!(short.err.contains("500 to 700 nm"), "{}", short.err);
+    // They are brought together, but have no colour.
+    assert_eq!(short.status, 1, "{}", short.err);
+    assert!(short.err.contains("brought to 500 to 700 nm"), "{}", short.err);
+    assert!(short.err.contains("have no colour"), "{}", short.err);
     let apart = color_of("two.qtx", "BAT_REFLLOW=400", "BAT_REFLLOW=750");
     assert_eq!(apart.status, 1, "{}", apart.err);
     for word in ["Madder ends at 700", "Slate begins at 750", "hint"] {

@@ -41,7 +41,7 @@ pub(super) struct Check {
 
 impl Check {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
-        let viewing = self.viewing.viewing()?;
+        let viewing = self.viewing.viewing(console)?;
         let chosen = chosen(self.library.as_deref(), console)?;
         let library = &chosen.library;
         let health = health(library, &viewing);
@@ -199,7 +199,7 @@ impl Diff {
         let lights = self
             .illuminant
             .iter()
-            .map(|light| viewing(light, &self.observer))
+            .map(|light| viewing(light, &self.observer, console))
             .collect::<Result<Vec<Viewing>>>()?;
         let first = library(&self.first)?;
         let second = library(&self.second)?;

@@ -289,7 +289,7 @@ impl Merge {
             ends: self.resampling.ends(),
             any_surface: self.any_surface,
             same_unit: self.same_unit,
-            viewing: self.viewing.viewing()?,
+            viewing: self.viewing.viewing(console)?,
         };
         let mut found = merged(&sources[0], &sources[1..], &settings)?;
         if let Some(title) = self.title {

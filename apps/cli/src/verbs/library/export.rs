@@ -99,7 +99,7 @@ impl Export {
             return Err(Failure::usage("a table of K and S has no tints", "leave out --tints"));
         }
         let tints = tints(&self.tints)?;
-        let viewing = self.viewing.viewing()?;
+        let viewing = self.viewing.viewing(console)?;
         let chosen = chosen(self.library.as_deref(), console)?;
         let output = Output::open(&self.output, &chosen.inputs())?;
         let library = chosen.library;

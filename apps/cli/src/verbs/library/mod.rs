@@ -75,7 +75,7 @@ struct List {
 
 impl List {
     fn run(self, console: &mut Console<'_>) -> Result<()> {
-        let viewing = self.viewing.viewing()?;
+        let viewing = self.viewing.viewing(console)?;
         let ChosenLibrary { library, .. } = chosen(self.library.as_deref(), console)?;
         if !self.json && !self.csv {
             let evidence = library.evidence.as_ref();

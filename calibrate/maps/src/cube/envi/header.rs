@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use crate::cube::error::CubeError;
 use crate::cube::raw_file::{Interleave, Layout};
-use crate::cube::wavelengths::Wavelengths;
 use crate::numbers::{ByteOrder, NumberType};
 
 /// Keys that name the quantity of the values.
@@ -59,7 +58,7 @@ impl EnviHeader {
         let unit = fields.text("wavelength units")?;
         let wavelengths = wavelengths
             .map(|values| {
-                Wavelengths::of(&values, unit).map_err(|problem| {
+                spectra::WavelengthList::of(&values, unit).map_err(|problem| {
                     let way_out = "write wavelengths in nm, with `wavelength units = Nanometers`";
                     fields.fault("wavelength", problem, way_out)
                 })
