@@ -42,8 +42,9 @@ fn are_micrometres(above: &[&str], firsts: &[f64]) -> bool {
         return false;
     }
     let named = above.iter().find_map(|line| Axis::of_words(line));
+    let has_unit = named.is_some() && !above.iter().all(|line| Axis::is_without_unit(line));
     named == Some(Axis::Micrometres)
-        || (named.is_none()
+        || (!has_unit
             && firsts.len() >= LEAST_MICROMETRES
             && firsts.iter().any(|x| *x < 2.5)
             && firsts.iter().any(|x| x.fract() != 0.0)
@@ -87,6 +88,10 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
     let words: String = table.above.join(" ");
     let axis = heads.first().and_then(|head| Axis::of_words(head.lowest()));
     let (axis, guess) = match axis.or_else(|| Axis::of_words(&words)) {
+        Some(Axis::Nanometres) if Axis::is_without_unit(&table.above.join(" ")) => {
+            // The word `wavelength` alone leaves nm open to values that can only be micrometres.
+            unnamed_axis(file, &table).unwrap_or((Axis::Nanometres, None))
+        }
         Some(axis) => (axis, None),
         None => unnamed_axis(file, &table)?,
     };
@@ -389,6 +394,14 @@ impl Axis {
         } else {
             None
         }
+    }
+
+    /// Whether `words` speak of wavelengths, if at all, without a unit.
+    fn is_without_unit(words: &str) -> bool {
+        let lower = words.to_lowercase();
+        let mut words = lower.split(|c: char| !c.is_alphabetic());
+        matches!(Self::of_words(&lower), None | Some(Self::Nanometres))
+            && !words.any(|word| word == "nm" || word.starts_with("nanomet"))
     }
 
     /// Wavelength in nm at the abscissa `x`, not finite for a wavenumber of 0.

@@ -15,7 +15,7 @@ use super::column::{
     Column, TableKind, columns, excludes_specular, is_known, is_wavelength_heading,
 };
 use super::error::MeasurementError;
-use super::heading_row::{CsvRow, HeadingRow, filled_column, plain_heading};
+use super::heading_row::{CsvRow, HeadingRow, filled_column, in_nanometres, plain_heading};
 use super::scale::outside_remark;
 use super::table::{Conditions, Film, Reading};
 
@@ -133,8 +133,10 @@ impl CsvRows {
         if text.trim().is_empty() {
             return Err(MeasurementError::Empty(file.to_owned()));
         }
-        let RawRows { separator, heading_row, headings: headers, mut rows, heading_rows } =
-            RawRows::of(text, kind);
+        let raw = RawRows::of(text, kind);
+        let RawRows { separator, heading_row, headings: headers, mut rows, heading_rows, remark } =
+            raw;
+        let micrometres = remark.map(|remark| format!("{file}: {remark}"));
         let place = |index: usize| {
             let row = heading_rows.as_ref().map_or(heading_row, |rows| rows[index]);
             let place = CellPlace::new(file, row, &headers[index]);
@@ -171,8 +173,14 @@ impl CsvRows {
         let named_by =
             named_by.map(|heading| format!("{file}: samples are named by the column `{heading}`"));
         let cut = outside(&columns).map(|cut| format!("{file}: {cut}"));
-        let left_out =
-            content.remark.into_iter().chain(excluded).chain(named_by).chain(cut).chain(deviations);
+        let left_out = content
+            .remark
+            .into_iter()
+            .chain(micrometres)
+            .chain(excluded)
+            .chain(named_by)
+            .chain(cut)
+            .chain(deviations);
         let file = file.into();
         Ok(Self {
             file,
@@ -445,6 +453,8 @@ pub(super) struct RawRows {
     pub(super) rows: Vec<CsvRow>,
     /// In a table with a column for each sample: the row of the file in which each heading stands.
     pub(super) heading_rows: Option<Vec<u64>>,
+    /// A unit of wavelengths that we guessed, in words.
+    remark: Option<String>,
 }
 
 impl RawRows {
@@ -469,7 +479,8 @@ impl RawRows {
         let mut records =
             reader.records().map(|r| r.expect("decoded text can always be split into records"));
         let headings = records.next().unwrap_or_default();
-        let mut headings: Vec<String> = headings.iter().map(plain_heading).collect();
+        let headings = headings.iter().map(plain_heading).collect();
+        let (mut headings, remark) = in_nanometres(headings);
         // Spreadsheets often leave empty columns at the right.
         let width = headings.iter().rposition(|name| !name.is_empty()).map_or(0, |last| last + 1);
         headings.truncate(width);
@@ -478,7 +489,7 @@ impl RawRows {
         });
         let rows = rows.collect();
         let separator = heading.separator;
-        Self { separator, heading_row, headings, rows, heading_rows: None }
+        Self { separator, heading_row, headings, rows, heading_rows: None, remark }
     }
 
     /// A table with a column for each sample and a row for each wavelength. Its first row must hold the
@@ -518,6 +529,7 @@ impl RawRows {
             heading_row,
             headings,
             heading_rows: Some(heading_rows.collect()),
+            remark: None,
             rows: (1..names.len())
                 .map(|column: usize| {
                     let values = rows.iter().map(|row| row.cells.get(column).unwrap_or_default());

@@ -310,7 +310,7 @@ pub enum MeasurementError {
         found: &'static str,
     },
     /// No spectrum of a file is a reflectance.
-    #[error("{file}, line {line}: {sample} is {quantity}; reflectance is wanted")]
+    #[error("{file}, line {line}: {sample} is {quantity}{stated}; reflectance is wanted")]
     #[hint(
         if *quantity == MeasuredQuantity::Counts,
         "counts need a white and a dark reading: [white_reading=FILE] [dark_reading=FILE]"
@@ -343,6 +343,8 @@ pub enum MeasurementError {
         sample: String,
         /// Quantity of that spectrum.
         quantity: MeasuredQuantity,
+        /// The unit of an unknown quantity, in brackets, or empty.
+        stated: String,
     },
     /// A spectrum has no wavelength at which paint is measured.
     #[error(

@@ -3,6 +3,8 @@
 //! Instruments' programs write a title or lines about the measurement above the headings, and spreadsheets
 //! write a line `sep=;`.
 
+use std::ops::RangeInclusive;
+
 use spectra::headings::name_rank;
 
 use super::column::{TableKind, is_wavelength_heading, name_column};
@@ -102,7 +104,8 @@ fn cells(line: &str, separator: u8) -> Vec<String> {
         .delimiter(separator)
         .from_reader(line.as_bytes());
     let record = reader.records().next().and_then(Result::ok).unwrap_or_default();
-    let mut cells: Vec<String> = record.iter().map(plain_heading).collect();
+    let cells: Vec<String> = record.iter().map(plain_heading).collect();
+    let mut cells = in_nanometres(cells).0;
     while cells.last().is_some_and(String::is_empty) {
         cells.pop();
     }
@@ -113,6 +116,45 @@ fn cells(line: &str, separator: u8) -> Vec<String> {
 pub(super) fn plain_heading(heading: &str) -> String {
     let pointed = heading.replace(',', ".");
     if pointed.parse::<f64>().is_ok() { pointed } else { heading.to_owned() }
+}
+
+/// Wavelengths in micrometres lie in this range.
+const MICROMETRES: RangeInclusive<f64> = 0.2..=20.0;
+/// So many headings without a unit must rise or fall before we take them for micrometres.
+const LEAST_MICROMETRES: usize = 8;
+
+/// The headings with wavelengths in nm instead of micrometres: `0.4 um` becomes `400`. Without a unit, at
+/// least eight numbers must rise or fall from less than 2.5. You then get a remark too.
+pub(super) fn in_nanometres(mut headings: Vec<String>) -> (Vec<String>, Option<String>) {
+    const UNITS: [&str; 7] =
+        ["um", "\u{b5}m", "\u{3bc}m", "micrometers", "micrometres", "microns", "micron"];
+    let number = |heading: &str| -> Option<(f64, bool)> {
+        let bare = heading.trim().trim_end_matches([')', ']']);
+        let unit = UNITS.iter().find_map(|unit| bare.strip_suffix(unit));
+        let text = unit.unwrap_or(heading).trim_end_matches(['(', '[', ' ', '_']).trim();
+        let micrometres: f64 = text.parse().ok()?;
+        MICROMETRES.contains(&micrometres).then_some((micrometres, unit.is_some()))
+    };
+    let found = headings.iter().enumerate();
+    let found: Vec<(usize, (f64, bool))> =
+        found.filter_map(|(at, heading)| Some((at, number(heading)?))).collect();
+    let have_units = found.len() > 1 && found.iter().all(|(_, (_, has_unit))| *has_unit);
+    let values: Vec<f64> = found.iter().map(|(_, (value, _))| *value).collect();
+    let look_alike = values.len() >= LEAST_MICROMETRES
+        && values.iter().any(|value| *value < 2.5)
+        && values.iter().any(|value| value.fract() != 0.0)
+        && (values.is_sorted_by(|a, b| a < b) || values.is_sorted_by(|a, b| a > b))
+        && !headings.iter().any(|heading| is_wavelength_heading(heading));
+    if !have_units && !look_alike {
+        return (headings, None);
+    }
+    for (at, (micrometres, _)) in &found {
+        // Without the noise of the product: 0.57 um are 570 nm.
+        headings[*at] = format!("{}", (micrometres * 1e9).round() / 1e6);
+    }
+    let (first, last) = (values[0], values[values.len() - 1]);
+    let remark = format!("wavelengths have no unit: {first} to {last} are taken for micrometres");
+    (headings, (!have_units).then_some(remark))
 }
 
 /// Cells of a row below the header, and the number of the row in the file, from 1.
@@ -142,6 +184,20 @@ mod tests {
 
     fn readings(text: &str) -> Option<(char, usize)> {
         heading_row(text, TableKind::Readings)
+    }
+
+    #[test]
+    fn headings_in_micrometres_become_nanometres() {
+        let of = |text: &str| in_nanometres(text.split(',').map(str::to_owned).collect());
+        let (found, remark) = of("sample,0.4 um,0.57 um");
+        assert_eq!((found.join(",").as_str(), remark), ("sample,400,570", None));
+        let (found, remark) = of("a,0.4,0.45,0.5,0.55,0.6,0.65,0.7,0.75");
+        assert_eq!(found.join(","), "a,400,450,500,550,600,650,700,750");
+        assert!(remark.unwrap().contains("0.4 to 0.75 are taken for micrometres"));
+        for other in ["a,1,2,3,4,5,6,7,8,9", "a,0.4,0.45", "a,0.4,0.3,0.5,0.6,0.7,0.8,0.9,1.5,400"]
+        {
+            assert_eq!(of(other).0.join(","), other);
+        }
     }
 
     #[test]

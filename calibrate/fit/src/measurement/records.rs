@@ -152,6 +152,7 @@ fn reflectances<'a>(
             line: record.line as u64,
             sample: name(&record.name),
             quantity: record.quantity,
+            stated: stated_unit(record),
         });
     }
     for record in others.into_iter().filter(|record| record.role == Role::Main) {
@@ -217,6 +218,15 @@ fn all_below_one(spectra: &[Spectrum<'_>]) -> Option<String> {
             "the file states percent, but no value exceeds {largest}: it is read as nearly black; set [fraction] if white is near 1, or [percent]"
         )
     })
+}
+
+/// The unit that a file states for a quantity that we do not know, as an addition to its name.
+fn stated_unit(record: &MeasuredSpectrum) -> String {
+    let units = record.details.iter().find(|(key, _)| key == "YUNITS");
+    match (record.quantity, units) {
+        (MeasuredQuantity::Unknown, Some((_, text))) => format!(" (`{text}`)"),
+        _ => String::new(),
+    }
 }
 
 impl Spectrum<'_> {

@@ -21,8 +21,6 @@ pub(super) enum Written {
 }
 
 impl Written {
-    pub(super) const ALL: [Self; 4] = [Self::Commas, Self::Semicolons, Self::Tabs, Self::Sheet];
-
     fn extension(self) -> &'static str {
         match self {
             Self::Commas | Self::Semicolons => "csv",
@@ -134,6 +132,11 @@ impl Table {
 
     pub(super) const fn fractions(self) -> Self {
         Self { white: 1.0, ..self }
+    }
+
+    /// Fractions under a heading in percent: the heading counts, and a remark says so.
+    pub(super) const fn as_nearly_black(self) -> Self {
+        self.last_times(0.01)
     }
 
     pub(super) const fn below(self, above: &'static str) -> Self {

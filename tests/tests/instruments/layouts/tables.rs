@@ -67,8 +67,11 @@ pub(super) const REPEATED: &[(Written, Table, Gives)] = &[
     (Sheet, down("nm", "Mean|Std Dev"), Says("Mean", "Std Dev")),
     (Commas, down("nm", "Mean|Error"), Says("Mean", "Error")),
     (Tabs, down("nm", "Mean|standard deviation"), Says("Mean", "standard deviation")),
-    (Commas, across("sample|Geometry=r45as15", "Blue|Red"), Says("Blue r45as15|Red r45as15", "Geometry")),
-    (Commas, across("sample|Geometry", "45as15|45as45"), Says("45as15|45as45", "Geometry")),
+    (Commas, across("sample|Geometry=r45as15", "Blue|Red"), Spectra("Blue|Red")),
+    (Commas, across("sample=Blue|Geometry", "45as15|45as45"), Says("Blue 45as15|Blue 45as45", "Geometry")),
+    (Semicolons, across("sample=Blue|Geometry", "45as15|45as45"), Says("Blue 45as15|Blue 45as45", "Geometry")),
+    (Tabs, across("sample=Blue|Angle", "15|45"), Says("Blue Angle 15|Blue Angle 45", "Angle")),
+    (Sheet, across("sample=Blue|Geometry", "45as15|45as45"), Says("Blue 45as15|Blue 45as45", "Geometry")),
 ];
 
 /// Values that are no reflectance.
@@ -123,9 +126,9 @@ pub(super) const UNITS: &[(Written, Table, Gives)] = &[
     (Semicolons, across("sample", "A|B").fractions(), Spectra("A|B")),
     (Tabs, down("nm", "A|B").fractions(), Spectra("A|B")),
     (Sheet, down("nm", "A|B").fractions(), Spectra("A|B")),
-    (Commas, down("nm", "Reflectance (%)").fractions(), Says("made", "%")),
-    (Semicolons, down("nm", "Reflectance (%)").fractions(), Says("made", "%")),
-    (Tabs, down("Wavelength", "Reflectance [%]").fractions(), Says("made", "%")),
+    (Commas, down("nm", "Reflectance (%)").as_nearly_black(), Says("made", "states percent")),
+    (Semicolons, down("nm", "Reflectance (%)").as_nearly_black(), Says("made", "states percent")),
+    (Tabs, down("Wavelength", "Reflectance [%]").as_nearly_black(), Says("made", "states percent")),
     (Commas, down("nm", "A|B").fractions().below("100% abundance of quartz\n"), Spectra("A|B")),
     (Tabs, down("nm", "A|B").fractions().below("100% abundance of quartz\n"), Spectra("A|B")),
 ];
@@ -153,8 +156,8 @@ pub(super) const WAVELENGTHS: &[(Written, Table, Gives)] = &[
     (Tabs, down("nm", "A|B").on(Falling), Spectra("A|B")),
     (Sheet, down("nm", "A|B").on(Falling), Spectra("A|B")),
     (Commas, across("sample", "A|B").on(Falling), Spectra("A|B")),
-    (Tabs, down("", "A|B").on(Wavenumbers).fractions(), Refused("wavenumber")),
-    (Commas, down("", "A|B").on(Wavenumbers).fractions(), Refused("wavenumber")),
+    (Tabs, down("", "A|B").on(Wavenumbers).fractions(), Refused("waves per cm")),
+    (Commas, down("", "A|B").on(Wavenumbers).fractions(), Refused("waves per cm")),
     (Commas, down("cm-1", "A|B").on(Wavenumbers).fractions(), Spectra("A|B")),
     (Tabs, down("Wavenumber (cm-1)", "A|B").on(Wavenumbers).fractions(), Spectra("A|B")),
     (Commas, across("sample", "A|B").around("", "nm"), Spectra("A|B")),
@@ -262,7 +265,7 @@ pub(super) const RECIPES: &[(Written, Table, Gives)] = &[
     (Semicolons, across("Monster|Titaanwit=90|Oker=10", "a|b"), Spectra("Titaanwit|Oker")),
     (Commas, across("sample|White=1|Red=2", "a|b").on(FromUltraviolet), Says("White|Red", "200")),
     (Sheet, across("sample|White=1|Red=2", "a|b").on(ToInfrared), Says("White|Red", "2500")),
-    (Commas, across("sample|08=1|12=2", "a|b"), Refused("08|pigments")),
+    (Commas, across("sample|08=1|12=2", "a|b"), Refused("08")),
     (Semicolons, across("sample|White=0,5|Red=0.5", "a|b").fractions(), Spectra("White|Red")),
     (Commas, across("sample|White=-1|Red=5", "a|b"), Refused("row 2|White|-1")),
 ];
