@@ -1,4 +1,5 @@
-//! Colour Index names, such as `PB29`, the traditional names of their pigments, and the words for their hues.
+//! The pigments that a name, a Colour Index name such as `PB29` or the word of a hue fits, with the traditional names
+//! of Colour Index names.
 //!
 //! The Colour Index (Society of Dyers and Colourists, American Association of Textile Chemists and Colorists) gives
 //! each pigment a generic name: `P` or, for natural ones, `N`, then the hue, then a number. The traditional names here
@@ -85,9 +86,57 @@ const KNOWN: [(&str, &[&str]); 62] = [
     ("NBr8", &["van dyke brown", "vandyke brown", "cassel earth"]),
 ];
 
+/// A pigment's name, and the Colour Index name that its library states.
+pub(crate) type NamedPigment<'a> = (&'a str, Option<&'a str>);
+
+/// Places of the `pigments` that `name` fits, in the first way in which it fits any: as the name as it is written, the
+/// name in any letter case, the start of a name, a Colour Index name, or words and hues.
+pub(crate) fn fitting(pigments: &[NamedPigment<'_>], name: &str) -> Vec<usize> {
+    if let Some(exact) = pigments.iter().position(|(own, _)| *own == name) {
+        return vec![exact];
+    }
+    let lower = name.to_lowercase();
+    if let Some(same) = pigments.iter().position(|(own, _)| own.to_lowercase() == lower) {
+        return vec![same];
+    }
+    let wanted = plain_index_name(name);
+    let starts = |(own, _): &NamedPigment<'_>| own.to_lowercase().starts_with(&lower);
+    let is_indexed =
+        |pigment: &NamedPigment<'_>| wanted.is_some() && index_name(*pigment) == wanted;
+    let has_words = |pigment: &NamedPigment<'_>| {
+        holds_words(pigment.0, name)
+            || index_name(*pigment).is_some_and(|own| has_hue(&own, &lower))
+    };
+    let ways: [&dyn Fn(&NamedPigment<'_>) -> bool; 3] = [&starts, &is_indexed, &has_words];
+    let found = ways.into_iter().map(|way| {
+        let places = (0..pigments.len()).filter(|at| way(&pigments[*at]));
+        places.collect::<Vec<usize>>()
+    });
+    match lower.is_empty() {
+        true => Vec::new(),
+        false => found.into_iter().find(|places| !places.is_empty()).unwrap_or_default(),
+    }
+}
+
+/// Colour Index name that the library states, or that tradition gives a paint of this name.
+fn index_name((name, stated): NamedPigment<'_>) -> Option<String> {
+    match stated {
+        Some(stated) => plain_index_name(stated),
+        None => traditional_index_name(name),
+    }
+}
+
+/// Names with commas and, before the last, `or`.
+pub(crate) fn one_of(names: &[String]) -> String {
+    match names {
+        [first @ .., last] if !first.is_empty() => format!("{} or {last}", first.join(", ")),
+        _ => names.join(", "),
+    }
+}
+
 /// A Colour Index name in its common form: `PB29` for `pb 29`, `P.B. 29`, `C.I. Pigment Blue 29` or `PB29:1`. `None` for
 /// any other text.
-pub(crate) fn plain_index_name(text: &str) -> Option<String> {
+fn plain_index_name(text: &str) -> Option<String> {
     let words =
         text.to_uppercase().replace("C.I.", " ").replace("PIGMENT", "P").replace("NATURAL", "N");
     let mut plain: String = words.chars().filter(|c| c.is_alphanumeric() || *c == ':').collect();
@@ -105,27 +154,28 @@ pub(crate) fn plain_index_name(text: &str) -> Option<String> {
 }
 
 /// The Colour Index name, in the form of [`plain_index_name`], that tradition gives a paint called `name`.
-pub(crate) fn traditional_index_name(name: &str) -> Option<String> {
+fn traditional_index_name(name: &str) -> Option<String> {
     // Of several traditional names, the longest says most.
     let known = KNOWN.iter().flat_map(|(index, names)| names.iter().map(move |name| (index, name)));
     let fitting = known.filter(|(_, words)| holds_words(name, words));
     fitting.max_by_key(|(_, words)| words.len()).map(|(index, _)| index.to_uppercase())
 }
 
-/// The traditional names of a Colour Index name, for messages.
-pub(crate) fn traditional_names(index: &str) -> &'static [&'static str] {
-    let known = KNOWN.iter().find(|(known, _)| known.eq_ignore_ascii_case(index));
+/// The traditional names of a Colour Index name, for messages. Empty for other texts.
+pub(crate) fn traditional_names(text: &str) -> &'static [&'static str] {
+    let index = plain_index_name(text);
+    let known = KNOWN.iter().find(|(known, _)| index.as_ref() == Some(&known.to_uppercase()));
     known.map_or(&[], |(_, names)| names)
 }
 
 /// Whether the Colour Index name `index`, in the form of [`plain_index_name`], has the hue that `word` names.
-pub(crate) fn has_hue(index: &str, word: &str) -> bool {
+fn has_hue(index: &str, word: &str) -> bool {
     let hue = index[1..].trim_end_matches(|c: char| c.is_ascii_digit());
     HUES.iter().any(|(letters, words)| *letters == hue && words.contains(&word))
 }
 
 /// Whether every word of `words` begins a word of `name`, in any letter case.
-pub(crate) fn holds_words(name: &str, words: &str) -> bool {
+fn holds_words(name: &str, words: &str) -> bool {
     let lower = name.to_lowercase();
     let own: Vec<&str> = split(&lower).collect();
     let wanted = words.to_lowercase();
@@ -184,5 +234,53 @@ mod tests {
     fn hues_have_words() {
         assert!(has_hue("PB29", "blue") && has_hue("PBK9", "black") && has_hue("NBR8", "brown"));
         assert!(!has_hue("PBK9", "blue") && !has_hue("PB29", "red"));
+    }
+
+    #[test]
+    fn pigments_are_found_by_name_colour_index_and_words() {
+        let paints = [
+            ("Zinc White", None),
+            ("Zinc White (linseed)", None),
+            ("Eosin Lake (wax)", None),
+            ("Eosin Lake", Some("PR90:1")),
+            ("Bone Black", None),
+            ("Cobalt Blue", None),
+            ("Ultramarine", None),
+            ("Prussian Blue", None),
+            ("Chrome Yellow", None),
+            ("Chrome Yellow (poppyseed)", None),
+            ("Viridian", None),
+            ("Emerald Green", None),
+            ("Barium Sulphate", None),
+            ("Phthalo Blue", Some("PB15:3")),
+            ("viridian", None),
+        ];
+        for (text, expected) in [
+            ("Zinc White", &["Zinc White"][..]),
+            ("zinc white", &["Zinc White"]),
+            ("Viridian", &["Viridian"]),
+            ("viridian", &["viridian"]),
+            ("cobalt", &["Cobalt Blue"]),
+            ("PB29", &["Ultramarine"]),
+            ("pb 29", &["Ultramarine"]),
+            ("pb15", &["Phthalo Blue"]),
+            ("Pigment Black 9", &["Bone Black"]),
+            ("PR90", &["Eosin Lake"]),
+            ("sulphate", &["Barium Sulphate"]),
+            ("blue prussian", &["Prussian Blue"]),
+            ("poppyseed", &["Chrome Yellow (poppyseed)"]),
+            ("black", &["Bone Black"]),
+            ("blue", &["Cobalt Blue", "Ultramarine", "Prussian Blue", "Phthalo Blue"]),
+            ("PW4", &["Zinc White", "Zinc White (linseed)"]),
+            ("zinc", &["Zinc White", "Zinc White (linseed)"]),
+            ("PW6", &[]),
+            ("", &[]),
+            ("Octarine", &[]),
+        ] {
+            let found = fitting(&paints, text).into_iter().map(|at| paints[at].0);
+            assert_eq!(found.collect::<Vec<_>>(), expected, "{text}");
+        }
+        assert_eq!(traditional_names("pw 6"), ["titanium white", "titan white"]);
+        assert!(traditional_names("Octarine").is_empty());
     }
 }

@@ -15,9 +15,7 @@ use sha2::{Digest, Sha256};
 use spectra::Grid;
 use spectra::optics::{Surface, UnevenFilm};
 
-use crate::color_index::{
-    has_hue, holds_words, plain_index_name, traditional_index_name, traditional_names,
-};
+use crate::color_index::{fitting, one_of, traditional_names};
 use crate::recipe::{Curves, PigmentId, Recipe};
 
 /// We allow this range for a part. Sums with larger parts lose their small terms to rounding.
@@ -118,37 +116,19 @@ impl PigmentLibrary {
     /// [`RecipeError`] if no pigment or several match.
     pub fn find(&self, name: &str) -> Result<PigmentId, RecipeError> {
         let name = name.trim();
-        if let Some(index) = self.pigments.iter().position(|p| p.name == name) {
-            return Ok(PigmentId(index));
+        let named = self.pigments.iter().map(|p| (p.name.as_str(), p.color_index.as_deref()));
+        match fitting(&named.collect::<Vec<_>>(), name)[..] {
+            [index] => Ok(PigmentId(index)),
+            [] => Err(RecipeError::UnknownPigment {
+                name: name.to_owned(),
+                traditional: traditional_names(name),
+                known: self.pigments.iter().map(|p| p.name.clone()).collect(),
+            }),
+            ref several => Err(RecipeError::Ambiguous {
+                name: name.to_owned(),
+                names: several.iter().map(|index| self.pigments[*index].name.clone()).collect(),
+            }),
         }
-        let lower = name.to_lowercase();
-        let starts = |p: &Pigment| !lower.is_empty() && p.name.to_lowercase().starts_with(&lower);
-        let wanted = plain_index_name(name);
-        let is_indexed = |p: &Pigment| wanted.is_some() && p.color_index_or_tradition() == wanted;
-        let has_words = |p: &Pigment| {
-            let index = p.color_index_or_tradition();
-            holds_words(&p.name, name) || index.is_some_and(|index| has_hue(&index, &lower))
-        };
-        let is_named = |p: &Pigment| p.name.to_lowercase() == lower;
-        let ways: [&dyn Fn(&Pigment) -> bool; 4] = [&is_named, &starts, &is_indexed, &has_words];
-        for way in ways {
-            let found: Vec<PigmentId> = self.ids().filter(|id| way(&self[*id])).collect();
-            match found[..] {
-                [] => {}
-                [id, ..] if found.len() == 1 || lower == self[id].name.to_lowercase() => {
-                    return Ok(id);
-                }
-                _ => {
-                    let names = found.iter().map(|id| self[*id].name.clone()).collect();
-                    return Err(RecipeError::Ambiguous { name: name.to_owned(), names });
-                }
-            }
-        }
-        Err(RecipeError::UnknownPigment {
-            name: name.to_owned(),
-            traditional: wanted.map_or(&[], |index| traditional_names(&index)),
-            known: self.pigments.iter().map(|p| p.name.clone()).collect(),
-        })
     }
 
     /// Indices of all pigments of the library, in order.
@@ -307,16 +287,6 @@ pub struct Pigment {
     /// Warnings about the pigment, in words for you.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
-}
-
-impl Pigment {
-    /// Colour Index name that the library states, or that tradition gives a paint of this name.
-    fn color_index_or_tradition(&self) -> Option<String> {
-        match &self.color_index {
-            Some(stated) => plain_index_name(stated),
-            None => traditional_index_name(&self.name),
-        }
-    }
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
@@ -756,14 +726,6 @@ pub enum RecipeError {
     Parts(f64),
 }
 
-/// Names with commas and, before the last, `or`.
-fn one_of(names: &[String]) -> String {
-    match names {
-        [first @ .., last] if !first.is_empty() => format!("{} or {last}", first.join(", ")),
-        _ => names.join(", "),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -811,44 +773,5 @@ mod tests {
                 RecipeError::UnknownPigment { name, traditional: &[], known: known.clone() };
             assert_eq!(error.hint().unwrap().to_string(), hint);
         }
-    }
-
-    #[test]
-    fn pigments_are_found_by_name_colour_index_and_words() {
-        let mut oils = PigmentLibrary::van_gogh_oils();
-        let eosin = oils.find("Eosin Lake").unwrap();
-        oils[eosin].color_index = Some("PR90:1".to_owned());
-        for (text, expected) in [
-            ("Zinc White", Ok("Zinc White")),
-            ("zinc white", Ok("Zinc White")),
-            ("cobalt", Ok("Cobalt Blue")),
-            ("PB29", Ok("Ultramarine")),
-            ("pb 29", Ok("Ultramarine")),
-            ("Pigment Black 9", Ok("Bone Black")),
-            ("PR90", Ok("Eosin Lake")),
-            ("sulphate", Ok("Barium Sulphate")),
-            ("blue prussian", Ok("Prussian Blue")),
-            ("poppyseed", Ok("Chrome Yellow (poppyseed)")),
-            ("black", Ok("Bone Black")),
-            ("blue", Err("`blue` may be Cobalt Blue, Ultramarine or Prussian Blue")),
-            ("green", Err("`green` may be Viridian or Emerald Green")),
-            ("PW4", Err("`PW4` may be Zinc White or Zinc White (linseed)")),
-            ("zinc", Err("`zinc` may be Zinc White or Zinc White (linseed)")),
-            ("PW6", Err("the library has no pigment called `PW6`")),
-            ("", Err("the library has no pigment called ``")),
-            ("Octarine", Err("the library has no pigment called `Octarine`")),
-        ] {
-            let found = oils.find(text).map(|id| oils[id].name.clone());
-            let found = found.map_err(|error| error.to_string());
-            match expected {
-                Ok(name) => assert_eq!(found.as_deref(), Ok(name), "{text}"),
-                Err(message) => assert_eq!(found.unwrap_err(), message, "{text}"),
-            }
-        }
-        let titanium = oils.find("PW6").unwrap_err().hint().unwrap().to_string();
-        assert!(
-            titanium.starts_with("PW6 is titanium white or titan white; pigments: "),
-            "{titanium}"
-        );
     }
 }

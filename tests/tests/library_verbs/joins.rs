@@ -421,3 +421,28 @@ fn libraries_on_two_grids_are_each_seen_on_their_own() {
     let run = tried(&["diff", &oils(), &narrow, "--tolerance", "0.001"]);
     assert_eq!(run.status, 1, "{}", run.err);
 }
+
+#[test]
+fn pigments_are_named_by_colour_index_and_by_words() {
+    let folder = LibraryFolder::new();
+    let few = folder.path("few.json");
+    let stated = folder.path("stated.json");
+    done(&["rename", &oils(), "--colour-index", "Eosin Lake=PR90:1", "--output", &stated]);
+    for (name, wanted) in [
+        ("PB29", "Ultramarine"),
+        ("Pigment Blue 27", "Prussian Blue"),
+        ("sulphate", "Barium Sulphate"),
+        ("PR90", "Eosin Lake"),
+    ] {
+        done(&["subset", &stated, "Zinc White", name, "--output", &few]);
+        assert!(read(&few).pigments.iter().any(|pigment| pigment.name == wanted), "{name}");
+    }
+    for (name, words) in [
+        ("blue", &["Cobalt Blue, Ultramarine or Prussian Blue"][..]),
+        ("PW6", &["`PW6`", "titanium white"]),
+        ("ultramarin blue", &["did you mean Ultramarine?"]),
+        ("sulfate", &["did you mean Barium Sulphate?"]),
+    ] {
+        refused(&["subset", &stated, "Zinc White", name, "--output", &few], 1, words);
+    }
+}
