@@ -12,7 +12,6 @@ mod library;
 mod readings;
 mod residuals;
 mod fitting;
-mod film;
 mod matching;
 mod planning;
 mod quadrature;
@@ -28,9 +27,7 @@ mod _native {
     #[pymodule_export]
     use crate::cube::Cube;
     #[pymodule_export]
-    use crate::film::{compare, film};
-    #[pymodule_export]
-    use crate::fitting::{Fit, Validation, fit, validate};
+    use crate::fitting::{Fit, Validation, compare, film, fit, validate};
     #[pymodule_export]
     use crate::library::Library;
     #[pymodule_export]

@@ -37,7 +37,7 @@ pub struct ComparedSample {
     pub lab: Lab,
     /// Colour in the second set, the standard.
     pub standard: Lab,
-    /// Colour differences.
+    /// Differences between the two colours.
     pub differences: ColorDifferences,
     /// Whether CIEDE2000 is within the tolerance. `None` without one.
     pub passes: Option<bool>,
@@ -52,11 +52,11 @@ pub struct SetComparison {
     pub only_first: Vec<String>,
     /// Names that only the second set has.
     pub only_second: Vec<String>,
-    /// Mean CIEDE2000.
+    /// Mean CIEDE2000 of all samples.
     pub mean: f64,
     /// 95th percentile of CIEDE2000.
     pub p95: f64,
-    /// Largest CIEDE2000.
+    /// Largest CIEDE2000 of all samples.
     pub max: f64,
     /// Mean difference of L*, a* and b*, first minus second. It shows an error that all samples share.
     pub shift: [f64; 3],

@@ -48,6 +48,7 @@ pub mod fit;
 mod residuals;
 pub mod report;
 mod request;
+mod two_cards;
 pub mod film;
 pub mod agreement;
 pub mod calibration;

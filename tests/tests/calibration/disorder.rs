@@ -50,3 +50,19 @@ fn shuffled_recipes_of_the_oils_are_told_and_shifted_ones_are_found() {
         assert!(run.err.contains(says), "{name}: {}", run.err);
     }
 }
+
+#[test]
+fn the_warning_is_in_the_library_and_comes_first() {
+    let folder = tempfile::tempdir().unwrap();
+    let [path, library] =
+        ["oils.csv", "oils.json"].map(|name| folder.path().join(name).display().to_string());
+    std::fs::write(&path, reordered(&|at, _| at.checked_sub(1))).unwrap();
+    let options = ["--method", "weighted", "--white", "Zinc White", "--json", "--output", &library];
+    let run = impasto(&[&["fit", &path], &options[..]].concat());
+    assert_eq!(run.status, 0, "{}", run.err);
+    let warning = run.json()["warnings"][0].as_str().unwrap().to_owned();
+    assert!(warning.contains("if each stands one row higher"), "{warning}");
+    let text = std::fs::read_to_string(&library).unwrap();
+    let written: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(written["evidence"]["warnings"][0], *warning);
+}

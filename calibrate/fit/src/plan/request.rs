@@ -61,7 +61,7 @@ impl Default for PlanRequest {
 /// Number of swatches that you want.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SwatchCount {
-    /// This many.
+    /// A number that you choose.
     Number(usize),
     /// One for each unknown of a wavelength, see [`PaintSet::unknowns`](super::PaintSet::unknowns).
     Fewest,

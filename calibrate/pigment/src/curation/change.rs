@@ -452,15 +452,18 @@ pub enum CurationError {
     /// K and S were fitted with different surfaces or film models.
     #[error("{file}: {what} differs, {wanted} in {first}, found `{found}`")]
     #[hint(
-        "K and S are valid only with the surface they were fitted with; fit {refit} again with [surface_of={kept}], or assume the surface of the first for both: [any_surface]"
+        if *keeps_first,
+        "K and S are valid only with the surface they were fitted with; fit {file} again with [surface_of={first}], or assume the surface of the first for both: [any_surface]"
+    )]
+    #[hint(
+        "K and S are valid only with the surface they were fitted with; fit {first} again with [surface_of={file}], or assume the surface of the first for both: [any_surface]"
     )]
     Surface {
         /// Name of the property that differs.
         what: &'static str,
-        /// File of the library that is easiest to fit again: the one with the greater k1.
-        refit: String,
-        /// File of the other library, whose surface the fit takes.
-        kept: String,
+        /// Whether the first library has the smaller k1, below which no reading lies. You then fit the other
+        /// one again.
+        keeps_first: bool,
         /// File of the first library.
         first: String,
         /// Value in the first library.

@@ -260,13 +260,10 @@ fn check_surface(
             other.file
         )));
     }
-    // Under the smaller k1 no reading lies below the surface's own reflection.
     let keeps_first = base.saunderson.k1 <= other.library.saunderson.k1;
     let first = first.file.clone();
     let file = other.file.clone();
-    let [kept, refit] =
-        if keeps_first { [&first, &file] } else { [&file, &first] }.map(Clone::clone);
-    Err(CurationError::Surface { what, refit, kept, first, wanted, file, found })
+    Err(CurationError::Surface { what, keeps_first, first, wanted, file, found })
 }
 
 fn surface_text(library: &PigmentLibrary) -> String {
