@@ -559,6 +559,15 @@ mod tests {
     }
 
     #[test]
+    fn a_lamp_that_is_rounded_to_two_digits_is_smooth() {
+        let body = black_body(2856.0).unwrap();
+        let nm: Vec<f64> = (38..=78).map(|ten| 10.0 * f64::from(ten)).collect();
+        let rounded = |nm: &f64| body.power().values()[(nm - 360.0) as usize].round();
+        let samples = IrregularSpectrum::new(nm.clone(), nm.iter().map(rounded).collect()).unwrap();
+        assert!(Illuminant::from_lamp("lamp", &samples).unwrap().lamp().unwrap().is_smooth);
+    }
+
+    #[test]
     fn wavelengths_that_are_not_regular_take_a_spline() {
         let nm: Vec<f64> =
             (0..100).map(|at| 380.0 + 4.0 * f64::from(at) + f64::from(at % 2)).collect();

@@ -247,10 +247,9 @@ pub(crate) fn roughness(values: &[f64]) -> Option<f64> {
     let size = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>().sqrt();
     let second = bends(values);
     let fourth = bends(&second);
-    let largest = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
     let bend = size(&second);
-    // Rounding bends a straight line by this much.
-    let is_straight = bend <= 1e-9 * largest;
+    // Rounding and noise bend a straight line by so little. Then every interpolation will do.
+    let is_straight = bend <= 0.01 * size(values);
     Some(if is_straight { 0.0 } else { size(&fourth) / bend })
 }
 

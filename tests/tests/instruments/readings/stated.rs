@@ -115,9 +115,9 @@ fn what_is_doubtful_is_refused_or_told_with_the_way_out() {
 fn a_lamp_is_read_by_its_quantity_and_its_smoothness() {
     // A black body of 2856 K in numbers of photons.
     let body = |nm: f64| 1e17 * nm.powi(-4) / ((1.4388e7 / (nm * 2856.0)).exp() - 1.0);
-    let photons = rows(|nm| (nm_text(nm), 1e-6 * body(nm)));
+    let photons = rows(|nm| (nm_text(nm), 1e-3 * body(nm)));
     let lined = rows(|nm| (nm_text(nm), if nm == 430.0 || nm == 540.0 { 5.0 } else { 1.0 }));
-    let list = values(" ", |nm| 1e-6 * body(nm) / nm);
+    let list = values(" ", |nm| 1e-3 * body(nm) / nm);
     for (name, content, options, kelvin, words) in [
         (
             "q.txt",
