@@ -16,7 +16,7 @@ const OFFICE: &str = "http://schemas.openxmlformats.org/officeDocument/2006/rela
 const PACKAGE: &str = "http://schemas.openxmlformats.org/package/2006/relationships";
 
 /// A workbook with the cells of a CSV from row `first` on in its only sheet, `Readings`.
-fn workbook(csv: &str, first: usize) -> Vec<u8> {
+pub(super) fn workbook(csv: &str, first: usize) -> Vec<u8> {
     workbook_of(&[("Readings", csv)], first)
 }
 
