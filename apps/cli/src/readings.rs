@@ -50,10 +50,10 @@ pub(crate) struct ReadingOptions {
     /// per pigment, then the wavelengths; commas, semicolons or tabs, or a sheet of .xlsx. cgats:
     /// CGATS.17, Argyll .ti3 and .sp, X-Rite and GretagMacbeth text. qtx: Datacolor. ocean-optics:
     /// SpectraSuite, OceanView, Jaz, .ProcSpec. jcamp-dx. avantes: AvaSoft text, .TRM, .ROH, .RFL8 and
-    /// others. bruker: OPUS .dpt. columns: wavelength, then one or more spectra. cxf: CxF3. tm27: IES
-    /// TM-27 .spdx. sekonic: SpectroMaster CSV. asd: FieldSpec .asd or text. sed: Spectral Evolution.
-    /// svc: Spectra Vista .sig. uprtek: UPRtek or LI-180. xlsx: columns in a workbook; FILE.xlsx#SHEET
-    /// names the sheet.
+    /// others. bruker: OPUS .dpt. columns: wavelength, then one or more spectra, or one row a reading
+    /// with wavelength, value and name. cxf: CxF3. tm27: IES TM-27 .spdx. sekonic: SpectroMaster CSV.
+    /// asd: FieldSpec .asd or text. sed: Spectral Evolution. svc: Spectra Vista .sig. uprtek: UPRtek or
+    /// LI-180. xlsx: columns in a workbook; FILE.xlsx#SHEET names the sheet.
     #[arg(long, value_name = "NAME", value_parser = format_names(), hide_possible_values = true)]
     format: Option<String>,
     /// Read transmittance as reflectance

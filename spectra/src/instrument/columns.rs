@@ -16,12 +16,14 @@ pub(super) fn is_column_text(text: &str) -> bool {
     let mut firsts = Vec::new();
     let mut above = Vec::new();
     let mut others = 0_usize;
-    for (number, line) in content(text) {
+    for (_, line) in content(text) {
         if !layout.is_row(line) {
             others += 1;
             above.push(line);
         } else {
-            let first = layout.numbers("", number, line, 0).map(|row| row[0]);
+            let cells = layout.cells(line);
+            // If decimal signs are mixed, an error names the odd cell.
+            let first = number(cells[0], layout.decimal).or_else(|| any_number(cells[0]));
             firsts.push(first.unwrap_or(f64::NAN));
         }
     }
@@ -502,10 +504,12 @@ pub(super) fn split(line: &str, separator: Option<char>) -> Vec<&str> {
 }
 
 fn is_row(cells: &[&str]) -> bool {
-    cells.len() > 1
-        && cells.iter().all(|cell: &&str| {
-            number(cell, Decimal::Point).is_some() || number(cell, Decimal::Comma).is_some()
-        })
+    cells.len() > 1 && cells.iter().all(|cell: &&str| any_number(cell).is_some())
+}
+
+/// The number in a cell with either decimal sign.
+fn any_number(cell: &str) -> Option<f64> {
+    number(cell, Decimal::Point).or_else(|| number(cell, Decimal::Comma))
 }
 
 /// We take an abscissa above this for a wavenumber, because no colour instrument measures longer

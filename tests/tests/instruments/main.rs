@@ -3,5 +3,5 @@
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 mod readings;
-mod layouts;
+mod cases;
 mod xml;

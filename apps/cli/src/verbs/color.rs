@@ -37,9 +37,10 @@ enum AdaptationName {
 /// Colour of measured spectra under any light, and differences between them
 ///
 /// Reads what `fit` reads: the CSV, whose pigment columns do not matter here, or an instrument's
-/// file (see --format). Repeated readings of one sample on one backing are averaged. Several lights
-/// may be given; with --compare the metamerism index (change of illuminant from the first light) is
-/// printed for each later one. --against compares two sets of measurements sample by sample.
+/// file (see --format). Repeated readings of one sample on one backing are averaged, but never those
+/// of several files, geometries or sides: these are samples of their own. Several lights may be
+/// given; with --compare the metamerism index (change of illuminant from the first light) is printed
+/// for each later one. --against compares two sets of measurements sample by sample.
 #[derive(Debug, Args)]
 #[command(mut_arg("white_reading", |option| option.alias("white")))]
 pub(crate) struct Color {

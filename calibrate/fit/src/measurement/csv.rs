@@ -118,23 +118,25 @@ impl MeasurementTable {
 }
 
 /// Whether we read a text as the CSV of this module and not as an instrument's file. Some line must name a
-/// column of samples and wavelengths, or the first line a column `sample`.
+/// column of samples and wavelengths, or the table have a column for each sample with rows about it.
 #[must_use]
 pub fn is_measurement_csv(text: &str) -> bool {
-    !is_long_table(text)
-        && (HeadingRow::of(text, TableKind::Readings).is_some() || RawRows::turned(text).is_some())
+    let heading = HeadingRow::of(text, TableKind::Readings);
+    let has_table = heading.is_some_and(|row| row.has_wavelengths(text));
+    (has_table || RawRows::turned(text).is_some()) && !is_long_table(text)
 }
 
-/// Whether the first line of a text names a column `sample`, which no instrument's file does.
+/// Whether the first line of a text names a column `sample` and wavelengths, which no instrument's file does.
 #[must_use]
 pub fn begins_with_samples(text: &str) -> bool {
-    let first = text.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
-    let is_named = [',', ';', '\t'].into_iter().any(|separator| {
-        first
-            .split(separator)
-            .any(|cell: &str| cell.trim().trim_matches('"').trim().eq_ignore_ascii_case("sample"))
-    });
-    is_named && !is_long_table(text)
+    let start = text.len() - text.trim_start().len();
+    let line = text[start..].lines().next().unwrap_or_default();
+    [b',', b';', b'\t'].into_iter().any(|separator| {
+        let has_sample = line
+            .split(char::from(separator))
+            .any(|cell: &str| cell.trim().trim_matches('"').trim().eq_ignore_ascii_case("sample"));
+        has_sample && HeadingRow { separator, offset: start }.has_wavelengths(text)
+    })
 }
 
 /// A piece has about this many bytes.

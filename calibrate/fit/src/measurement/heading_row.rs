@@ -65,6 +65,12 @@ impl HeadingRow {
         best.map(|(_, found)| found)
     }
 
+    /// Whether a cell of the row is a wavelength.
+    pub(super) fn has_wavelengths(self, text: &str) -> bool {
+        let line = text[self.offset..].lines().next().unwrap_or_default();
+        cells(line, self.separator).iter().any(|cell| is_wavelength_heading(cell))
+    }
+
     /// The first row that is not empty, with the separator that occurs most often in it.
     pub(super) fn first(text: &str) -> Self {
         let offset = text.len() - text.trim_start_matches(['\n', '\r', ' ']).len();
