@@ -19,6 +19,7 @@ mod light_meters;
 mod ocean_optics;
 mod workbook;
 mod cxf;
+mod envi_library;
 mod format;
 mod read;
 
