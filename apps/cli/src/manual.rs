@@ -144,6 +144,7 @@ const EXAMPLES: [(&str, &[&str]); 34] = [
             "impasto map scan.hdr oils.json --palette \"Lead White\" --palette Ultramarine --json",
             "impasto map field.hdr oils.json -o maps.zarr --truth field-truth.zarr",
             "impasto map capture.hdr -o maps.zarr --white-reading white.hdr --dark-reading dark.hdr --resume",
+            "impasto map reflectance.hdr oils.json --scale 10000 -o maps.zarr",
         ],
     ),
     (

@@ -9,12 +9,16 @@ mod error;
 mod options;
 mod wavelengths;
 mod window;
+mod white;
 mod interpret;
 mod raw_file;
 
 #[cfg(feature = "files")]
 mod side_files;
 pub mod envi;
+
+#[cfg(feature = "files")]
+mod gdal;
 
 #[cfg(feature = "files")]
 mod stack;

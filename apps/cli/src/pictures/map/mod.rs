@@ -126,9 +126,7 @@ impl Map {
         }
         let library = chosen(self.library.as_deref(), console)?.library;
         let cube = self.reading.cube(&self.scan)?;
-        for remark in cube.remarks() {
-            console.remark(remark)?;
-        }
+        console.remarks(cube.remarks())?;
         let known = self.survey.as_ref().filter(|path| path.exists());
         let book = known.map(|path| book(path)).transpose()?;
         let waiting = Waiting::new("surveying", console.shows_progress());
@@ -225,10 +223,10 @@ fn remark(request: &MapRequest, scan: &SurveyedScan) -> Option<Remark> {
 #[command(next_help_heading = "Reading the scan")]
 struct ScanOptions {
     /// Values are in percent [default: by the file]
-    #[arg(long, conflicts_with = "fraction")]
+    #[arg(long, conflicts_with_all = ["fraction", "scale"])]
     percent: bool,
     /// Values are fractions, a white near 1
-    #[arg(long)]
+    #[arg(long, conflicts_with = "scale")]
     fraction: bool,
     #[command(flatten)]
     options: RequestOptions<CubeOptions>,
@@ -243,6 +241,7 @@ impl CommandLine for CubeOptions {
                 let option = option.value_name("0.99").hide_default_value(true);
                 option.allow_hyphen_values(false).requires("white_reading")
             }
+            "scale" => option.value_name("10000").hide_default_value(true),
             "full_scale" => option.value_name("COUNT").allow_hyphen_values(false),
             "wavelengths" => path(option, "FILE"),
             "variable" => option.value_name("NAME"),
@@ -251,7 +250,7 @@ impl CommandLine for CubeOptions {
     }
 
     fn is_option(key: &str) -> bool {
-        !matches!(key, "scale" | "scratch")
+        key != "scratch"
     }
 }
 
@@ -268,7 +267,7 @@ impl ScanOptions {
         let scale = match (self.percent, self.fraction) {
             (true, _) => CubeScale::Percent,
             (_, true) => CubeScale::Fraction,
-            _ => CubeScale::ByFile,
+            _ => options.scale,
         };
         Ok(Cube::open_with(path, &CubeOptions { scale, ..options })?)
     }
