@@ -9,6 +9,7 @@ from impasto._native import __version__
 from impasto.cube import Cube
 from impasto.errors import Error, FileError, FindingWarning, FitError, ReadingError, RecipeError
 from impasto.fitting import Fit, Surface, Validation, fit, validate
+from impasto.identifying import Identified, Spot, identify
 from impasto.library import Library, Pigment
 from impasto.light import Light
 from impasto.maps import PigmentMaps, Survey, pigment_map, survey
@@ -27,6 +28,7 @@ __all__ = [
     "FindingWarning",
     "Fit",
     "FitError",
+    "Identified",
     "Library",
     "Light",
     "Match",
@@ -41,12 +43,14 @@ __all__ = [
     "Report",
     "Residuals",
     "Spectrum",
+    "Spot",
     "Surface",
     "Survey",
     "Validation",
     "__version__",
     "color",
     "fit",
+    "identify",
     "pigment_map",
     "plan",
     "read",

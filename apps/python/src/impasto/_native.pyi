@@ -21,6 +21,7 @@ __all__ = [
     "__version__",
     "delta_e",
     "fit",
+    "identify",
     "plan",
     "quadrature",
     "recipes_for",
@@ -170,6 +171,14 @@ def recipes_for(
     over: Any,
     progress: _Progress,
 ) -> list[tuple[str, _Remarks]]: ...
+def identify(
+    library: Library,
+    names: list[str],
+    grid_numbers: _Grid,
+    values: Floats,
+    request: str,
+    residuals: Residuals | None,
+) -> tuple[str, _Remarks]: ...
 def plan(
     pigments: list[str],
     white: str,
@@ -213,6 +222,8 @@ class Survey:
         book: str | None,
         progress: _Progress,
     ) -> Survey: ...
+    @property
+    def remarks(self) -> _Remarks: ...
     def book(self) -> str: ...
     def about(self) -> str: ...
     def begin(self, path: _Path, resume: bool) -> list[tuple[str, int]]: ...

@@ -106,10 +106,10 @@ async function map() {
   });
   if (!done) return;
   mapped = done.about;
-  const { words, groups, unmapped, json } = mapped;
+  const { words, groups, remarks, unmapped, json } = mapped;
   const named = json.palette.filter((found) => found.survey_part >= NAMED);
   $("scan-words").textContent = words;
-  $("scan-notes").replaceChildren(...[...groups, ...unmapped].map((text) => element("p", { className: "fine" }, text)));
+  $("scan-notes").replaceChildren(...[...groups, ...unmapped].map((text) => element("p", { className: "fine" }, text)), ...remarkList(remarks));
   fillTable(named);
   $("scan-result").hidden = false;
   showMaps(done, named);

@@ -6,7 +6,6 @@ mod page;
 
 use std::path::{Path, PathBuf};
 
-use calibrate::remark::Remark;
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Arg, Args, ValueHint};
 use documents::{Task, text::read_text};
@@ -14,8 +13,7 @@ use maps::cube::{CubeOptions, CubeScale};
 use maps::pictures::Overview;
 use maps::truth::{CHI2_RISEN, Comparison, Truth, compare};
 use maps::{
-    Book, Cube, FoundColumn, MapRequest, MapRequestError, ModelError, Spot, StoreMode, StoredMaps,
-    SurveyedScan,
+    Book, Cube, FoundColumn, MapRequest, MapRequestError, Spot, StoreMode, StoredMaps, SurveyedScan,
 };
 use serde_json::{Value, json};
 
@@ -81,17 +79,7 @@ pub(crate) struct Map {
 impl CommandLine for MapRequest {
     fn adapted(key: &str, option: Arg) -> Arg {
         match key {
-            "at_most" => option.value_name("N").hide_default_value(true),
-            "palette" => option.value_name("NAME"),
-            "groups" => option.long("group").value_name("NAME=PIGMENT,.."),
-            "noise" => option.value_name("SD").allow_hyphen_values(false),
-            "residuals" => path(option, "FILE"),
-            "model_error" => {
-                let option = option.value_name("0.05").allow_hyphen_values(false);
-                option.conflicts_with("residuals")
-            }
             "ground" => option.value_name("ROWS,COLUMNS|FILE"),
-            "penalty" => option.value_name("N").hide_default_value(true).allow_hyphen_values(false),
             // After --pictures and after --survey.
             "region" => {
                 option.value_name("ROWS,COLUMNS").help_heading(None::<&str>).display_order(2)
@@ -100,8 +88,25 @@ impl CommandLine for MapRequest {
                 let option = option.long("spot").value_name("ROWS,COLUMNS");
                 option.help_heading(None::<&str>).display_order(4)
             }
-            _ => option,
+            _ => of_pigments(key, option),
         }
+    }
+}
+
+/// Adds names of values to the options on pigments and errors, which `map` and `identify` share.
+pub(super) fn of_pigments(key: &str, option: Arg) -> Arg {
+    match key {
+        "at_most" => option.value_name("N").hide_default_value(true),
+        "palette" => option.value_name("NAME"),
+        "groups" => option.long("group").value_name("NAME=PIGMENT,.."),
+        "noise" => option.value_name("SD").allow_hyphen_values(false),
+        "residuals" => path(option, "FILE"),
+        "model_error" => {
+            let option = option.value_name("0.05").allow_hyphen_values(false);
+            option.conflicts_with("residuals")
+        }
+        "penalty" => option.value_name("N").hide_default_value(true).allow_hyphen_values(false),
+        _ => option,
     }
 }
 
@@ -132,7 +137,8 @@ impl Map {
         let waiting = Waiting::new("surveying", console.shows_progress());
         let scan = request.survey(cube, &library, book, &Task::default()).map_err(failure)?;
         drop(waiting);
-        console.remarks(remark(&request, &scan).as_slice())?;
+        console.remarks(scan.mapper().remarks())?;
+        console.remarks(&scan.mapper().assumed_error(request.model_error.is_some()))?;
         if let (Some(path), None) = (&self.survey, known) {
             documents::file::write_whole(path, scan.book().to_json()?.as_bytes())?;
             console.wrote(path)?;
@@ -197,25 +203,13 @@ fn book(path: &Path) -> Result<Book> {
 }
 
 /// The error of a request in the words of the command line.
-fn failure(error: MapRequestError) -> Failure {
+pub(super) fn failure(error: MapRequestError) -> Failure {
     match error {
         MapRequestError::GroundFile(reason) => {
             Failure::from(reason).within("--ground takes a region or a file")
         }
         error => error.into(),
     }
-}
-
-/// A remark, if the errors of the library are assumed and not measured.
-fn remark(request: &MapRequest, scan: &SurveyedScan) -> Option<Remark> {
-    let assumed = request.model_error.is_none()
-        && matches!(scan.mapper().model_error(), ModelError::Stated(_));
-    assumed.then(|| {
-        let words = scan.mapper().model_error().words();
-        Remark::note(format!("this library is taken to have {words}")).with_hint(
-            "`impasto validate READINGS [residuals=FILE.json]` measures its errors, and [residuals=FILE.json] gives them to the map",
-        )
-    })
 }
 
 /// How the scan is read.
