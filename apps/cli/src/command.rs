@@ -87,7 +87,7 @@ impl Man {
 const GROUPS: [(&str, &[&str]); 5] = [
     ("Measure and calibrate", &["plan", "color", "light", "film", "fit", "validate", "report"]),
     ("Mix and match", &["mix", "match", "correct", "library", "quadrature"]),
-    ("Map a scan", &["map", "simulate-scan"]),
+    ("Map a scan", &["map", "identify", "simulate-scan"]),
     ("Paint", &["paint", "relight", "watercolor", "artmap", "painterly", "stencil"]),
     ("The program", &["demo", "gpu", "completions", "man", "help"]),
 ];

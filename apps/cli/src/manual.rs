@@ -103,7 +103,7 @@ fn examples(command: &Command, page: &mut Roff) {
 }
 
 /// Verbs, by their words, and commands that show them.
-const EXAMPLES: [(&str, &[&str]); 37] = [
+const EXAMPLES: [(&str, &[&str]); 38] = [
     (
         "film",
         &[
@@ -153,6 +153,15 @@ const EXAMPLES: [(&str, &[&str]); 37] = [
             "impasto map scan.hdr oils.json --palette \"Lead White\" --palette Ultramarine --json",
             "impasto map field.hdr oils.json -o maps.zarr --truth field-truth.zarr",
             "impasto map capture.hdr -o maps.zarr --white-reading white.hdr --dark-reading dark.hdr --resume",
+            "impasto map reflectance.hdr oils.json --scale 10000 -o maps.zarr",
+        ],
+    ),
+    (
+        "identify",
+        &[
+            "impasto identify spots.csv oils.json",
+            "impasto identify \"fors.txt#sky\" oils.json --palette \"Lead White\" --palette Ultramarine",
+            "impasto identify spots.csv oils.json --residuals residuals.json --csv",
         ],
     ),
     (

@@ -53,7 +53,8 @@ pub(crate) struct ReadingOptions {
     /// others. bruker: OPUS .dpt. columns: wavelength, then one or more spectra, or one row a reading
     /// with wavelength, value and name. cxf: CxF3. tm27: IES TM-27 .spdx. sekonic: SpectroMaster CSV.
     /// asd: FieldSpec .asd or text. sed: Spectral Evolution. svc: Spectra Vista .sig. uprtek: UPRtek or
-    /// LI-180. xlsx: columns in a workbook; FILE.xlsx#SHEET names the sheet.
+    /// LI-180. envi: a spectral library, .hdr or .sli with the other beside it. xlsx: columns in a
+    /// workbook; FILE.xlsx#SHEET names the sheet.
     #[arg(long, value_name = "NAME", value_parser = format_names(), hide_possible_values = true)]
     format: Option<String>,
     /// Read transmittance as reflectance

@@ -200,6 +200,7 @@ fn kind(schema: &Value) -> Option<Kind> {
         () if has("boolean") => Kind::Flag,
         () if has("string") => Kind::Text { may_be_number: has("number") },
         () if has("object") => return None,
+        () if !words.is_empty() && has("number") => Kind::Text { may_be_number: true },
         () if !words.is_empty() => Kind::Words(words),
         () if has("array") => Kind::Texts,
         () if has("integer") => Kind::Whole(format.to_owned()),

@@ -7,7 +7,7 @@ use maps::cube::CubeOptions;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
 
-use crate::failure::{Exception, Raised};
+use crate::failure::{Exception, Raised, RemarkTuple, remarks};
 
 /// A spectral scan.
 #[pyclass(frozen, module = "impasto._native")]
@@ -47,10 +47,10 @@ impl Cube {
         PyArray1::from_slice(py, self.cube.wavelengths_nm())
     }
 
-    /// Sentences about how the file was understood.
+    /// How the file was understood.
     #[getter]
-    fn remarks(&self) -> Vec<String> {
-        self.cube.remarks().to_vec()
+    fn remarks(&self) -> Vec<RemarkTuple> {
+        remarks(self.cube.remarks())
     }
 
     /// Reflectance (rows, columns, bands) and mask (rows, columns) of a rectangle.

@@ -18,6 +18,7 @@ mod quadrature;
 mod report;
 mod cube;
 mod survey;
+mod identify;
 
 /// The native part of the package `impasto`.
 #[pymodule]
@@ -28,6 +29,8 @@ mod _native {
     use crate::cube::Cube;
     #[pymodule_export]
     use crate::fitting::{Fit, Validation, compare, film, fit, validate};
+    #[pymodule_export]
+    use crate::identify::identify;
     #[pymodule_export]
     use crate::library::Library;
     #[pymodule_export]

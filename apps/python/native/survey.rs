@@ -13,7 +13,7 @@ use maps::{
 use pyo3::prelude::*;
 
 use crate::cube::Cube;
-use crate::failure::{Exception, Raised};
+use crate::failure::{Exception, Raised, RemarkTuple, remarks};
 use crate::library::Library;
 use crate::residuals::Residuals;
 use crate::running::{run, run_with};
@@ -79,6 +79,14 @@ impl Survey {
             },
         )?;
         surveyed.map(|scan| Self(Arc::new(scan))).raised(py, Exception::Fit)
+    }
+
+    /// Pigments that take no part, and assumed errors of the library.
+    #[getter]
+    fn remarks(&self) -> Vec<RemarkTuple> {
+        let mapper = self.0.mapper();
+        // Python states the assumed error in `about`.
+        remarks(mapper.remarks())
     }
 
     /// The book of the survey as JSON.

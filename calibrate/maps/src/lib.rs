@@ -33,6 +33,7 @@ pub mod blocks;
 pub mod pictures;
 mod outcomes;
 mod request;
+mod identify;
 
 #[cfg(feature = "files")]
 pub use blocks::map_cube;
@@ -43,6 +44,7 @@ pub use films::film::Paints;
 pub use films::settings::{
     LEAST_MIXTURES, MapSettings, ModelError, PigmentGroup, USUAL_MODEL_ERROR,
 };
+pub use identify::{Identified, IdentifiedSpectrum, IdentifyRequest, PigmentSet};
 pub use mapping::Mapper;
 pub use mapping::book::{Book, BookEntry, BookSet, OpenBook, SetFrequency};
 pub use mapping::groups::{ALIKE, Column, Confusion};

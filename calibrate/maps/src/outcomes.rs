@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 
 use crate::pictures::Overview;
 use crate::pixel_maps::Mask;
-use crate::surveyed::{FoundColumn, Spot, SurveyedScan};
+use crate::surveyed::{FoundColumn, Spot, SpotPigment, SurveyedScan};
 
 impl SurveyedScan {
     /// The survey as JSON: scan, hashes, settings, groups and palette. If you pass finished maps,
@@ -34,6 +34,7 @@ impl SurveyedScan {
             "effective_bands": self.mapper().effective_bands(),
             "usual_chi2": self.book().usual_chi2,
             "groups": groups,
+            "left_out": self.mapper().left_out(),
             "palette": self.palette_json(mapped),
             "pixels": pixels,
             "spots": spots.iter().map(Spot::to_json).collect::<Vec<Value>>(),
@@ -103,14 +104,7 @@ impl Spot {
     /// The spot as JSON: place, pigments with their shares, residuals, and both spectra.
     #[must_use]
     pub fn to_json(&self) -> Value {
-        let pigments = self.pigments.iter().map(|pigment| {
-            json!({
-                "pigment": pigment.name,
-                "share": pigment.share,
-                "share_sd": pigment.share_sd,
-                "presence": pigment.presence,
-            })
-        });
+        let pigments = self.pigments.iter().map(SpotPigment::to_json);
         json!({
             "rows": [self.region.rows.start, self.region.rows.end],
             "columns": [self.region.columns.start, self.region.columns.end],
@@ -150,6 +144,35 @@ impl Spot {
             self.chi2
         )
     }
+}
+
+impl SpotPigment {
+    /// The pigment with share, deviation and probability as JSON.
+    #[must_use]
+    pub fn to_json(&self) -> Value {
+        json!({
+            "pigment": self.name,
+            "share": self.share,
+            "share_sd": self.share_sd,
+            "presence": self.presence,
+        })
+    }
+}
+
+/// A share in percent, with a decimal where it is below 1 %.
+pub(crate) fn percent(share: f64) -> String {
+    match 100.0 * share {
+        none if none == 0.0 => "0".to_owned(),
+        trace if trace < 0.05 => "<0.1".to_owned(),
+        small if small < 0.95 => format!("{small:.1}"),
+        other => format!("{other:.0}"),
+    }
+}
+
+/// Names with their shares in percent.
+pub(crate) fn parts_words(parts: &[(String, f64)]) -> String {
+    let each = parts.iter().map(|(name, share)| format!("{name} {} %", percent(*share)));
+    each.collect::<Vec<_>>().join(", ")
 }
 
 fn range_words(name: &str, range: &Range<usize>) -> String {

@@ -16,11 +16,11 @@ use crate::cube::Cube;
 use crate::films::bands::Ground;
 use crate::films::settings::{MapSettings, ModelError, PigmentGroup};
 use crate::mapping::book::Book;
+use crate::pixel_maps::MapError;
 use crate::surveyed::{Region, Spot, SpotError, SurveyError, SurveyedScan};
 #[cfg(feature = "files")]
 use crate::{
     blocks::{MapOutcome, RunError},
-    pixel_maps::MapError,
     store::{StoreError, StoreMode},
 };
 
@@ -133,11 +133,22 @@ impl MapRequest {
         cube: &Cube,
         library: &PigmentLibrary,
     ) -> Result<MapSettings, MapRequestError> {
+        let ground = self.ground.as_ref().map(|ground| ground.of(cube)).transpose()?;
+        self.settings_with(cube.noise_of_white(), ground, library)
+    }
+
+    /// Settings for spectra with this `ground`, and this noise where the request states none.
+    pub(crate) fn settings_with(
+        &self,
+        noise: Option<f64>,
+        ground: Option<Ground>,
+        library: &PigmentLibrary,
+    ) -> Result<MapSettings, MapRequestError> {
         if self.residuals.is_some() && self.model_error.is_some() {
             return Err(MapRequestError::TwoErrors);
         }
         let usual = MapSettings::default();
-        let of_white = cube.noise_of_white().map(|noise| noise.max(usual.sensor_noise));
+        let of_white = noise.map(|noise| noise.max(usual.sensor_noise));
         let residuals = self.residuals.as_ref().map(Residuals::open).transpose()?;
         let stated = self.model_error.map(ModelError::Stated);
         let settings = MapSettings {
@@ -148,7 +159,7 @@ impl MapRequest {
             sensor_noise: self.noise.or(of_white).unwrap_or(usual.sensor_noise),
             model_error: residuals.map(ModelError::Residuals).or(stated),
             penalty: self.penalty,
-            ground: self.ground.as_ref().map(|ground| ground.of(cube)).transpose()?,
+            ground,
         };
         if let (Err(reason), Some(path)) = (settings.model_error_of(library), &self.residuals) {
             return Err(MapRequestError::Unsuitable(path.clone(), reason));
@@ -363,7 +374,9 @@ impl<'de> Deserialize<'de> for SpotEntry {
     }
 }
 
-fn read_groups<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<PigmentGroup>, D::Error> {
+pub(crate) fn read_groups<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Vec<PigmentGroup>, D::Error> {
     let groups = Vec::<GroupEntry>::deserialize(deserializer)?;
     Ok(groups.into_iter().map(|GroupEntry(group)| group).collect())
 }
@@ -377,7 +390,7 @@ impl<'de> Deserialize<'de> for GroupEntry {
     }
 }
 
-fn groups_schema(_: &mut SchemaGenerator) -> Schema {
+pub(crate) fn groups_schema(_: &mut SchemaGenerator) -> Schema {
     json_schema!({
         "type": "array",
         "items": {
@@ -456,6 +469,12 @@ pub enum MapRequestError {
     #[cfg(feature = "files")]
     #[error(transparent)]
     Run(#[from] RunError<MapError>),
+}
+
+impl MapRequestError {
+    pub(crate) fn of(error: MapError) -> Self {
+        Self::Survey(error.into())
+    }
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ use serde_json::{Map, Value, json};
 
 use crate::cube::{Block, Cube, CubeError};
 use crate::films::bands::Ground;
-use crate::films::settings::{MapSettings, ModelError};
+use crate::films::settings::MapSettings;
 use crate::mapping::Mapper;
 use crate::mapping::book::{Book, OpenBook};
 use crate::mapping::groups::Column;
@@ -245,19 +245,12 @@ fn stored_settings(settings: &MapSettings, mapper: &Mapper) -> Map<String, Value
         .filter(|column| column.pigments.len() > 1)
         .map(|column| (column.name.clone(), json!(column.pigments)))
         .collect();
-    let model_error = match mapper.model_error() {
-        ModelError::Stated(relative) => json!(relative),
-        ModelError::Residuals(residuals) => json!({
-            "left_out_mixtures": residuals.mixtures.len(),
-            "residuals_sha256": residuals.sha256(),
-        }),
-    };
     let all = json!({
         "at_most": settings.at_most,
         "palette": mapper.pigments(),
         "groups": groups,
         "sensor_noise": settings.sensor_noise,
-        "model_error": model_error,
+        "model_error": mapper.model_error().to_json(),
         "penalty": settings.penalty,
         "ground": settings.ground,
     });

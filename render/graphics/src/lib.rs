@@ -35,6 +35,7 @@ pub mod field;
 pub mod lanes;
 pub mod encoding;
 pub mod picture_formats;
+mod described_colors;
 pub mod picture;
 pub mod exr_picture;
 pub mod orientation;

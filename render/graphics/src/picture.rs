@@ -17,8 +17,9 @@ use tiff::TiffResult;
 use tiff::decoder::{Decoder, Limits as ColorProfileLimits, ifd};
 use tiff::tags::Tag;
 
+use crate::described_colors::DescribedColors;
 use crate::field::Field;
-use crate::picture_formats::{NAMES, is_cut_off_jpeg, is_of_inks};
+use crate::picture_formats::{NAMES, damage_of_jpeg, is_cut_off_jpeg, is_of_inks};
 
 /// A picture in linear sRGB, white at 1, one colour per cell.
 pub type Picture = Field<[f32; 3]>;
@@ -40,8 +41,9 @@ const USUAL_LONGER_SIDE_PX: usize = 1600;
 
 impl Photograph {
     /// Reads a PNG, JPEG, TIFF or WebP file, grey or colour, with 8 or 16 bits per channel. This
-    /// converts its colours by the ICC profile in the file. A file without one counts as sRGB. It
-    /// also applies the orientation in the EXIF data.
+    /// converts its colours by the ICC profile in the file, or by the gamma and chromaticities of a
+    /// PNG file. A file without either counts as sRGB. It also applies the orientation in the EXIF
+    /// data. A JPEG file that is cut off or damaged is refused.
     ///
     /// # Errors
     /// [`PhotographError`] with the path.
@@ -79,6 +81,11 @@ impl Photograph {
         if inks.contains(&decoder.original_color_type()) || is_of_inks(bytes) {
             return Err(refused(ProfileError::Inks("CMYK".to_owned())));
         }
+        if let Some(reason) = damage_of_jpeg(bytes) {
+            return Err(PhotographError::Damaged { name: name.to_owned(), reason });
+        }
+        let described = DescribedColors::of_png(bytes)
+            .map_err(|reason| refused(ProfileError::Unusable(reason)))?;
         let orientation = decoder.orientation().map_err(rejected)?;
         let profile = match image::guess_format(bytes) {
             Ok(ImageFormat::Tiff) => tiff_profile(bytes).map_err(|error| {
@@ -91,9 +98,14 @@ impl Photograph {
         if !matches!(sample_bytes(image.color()), 1 | 2) {
             image = image.into_rgba16().into();
         }
-        if let Some(profile) = profile {
-            image = to_srgb(image, &profile).map_err(refused)?;
-        }
+        image = match (described, profile) {
+            (Some(colors), None) => converted(image, &colors.profile).map_err(refused)?,
+            (Some(colors), _) if colors.before_icc => {
+                converted(image, &colors.profile).map_err(refused)?
+            }
+            (_, Some(profile)) => to_srgb(image, &profile).map_err(refused)?,
+            (_, None) => image,
+        };
         Ok(Self { image })
     }
 
@@ -280,6 +292,17 @@ pub enum PhotographError {
         /// Length of the file.
         bytes: usize,
     },
+    /// The coded data of a JPEG picture are damaged.
+    #[error("{name}: the JPEG file is damaged: {reason}")]
+    #[hint(
+        "copy or download the file again, or repair it in an image editor; the decoder would fill what follows the damage with grey"
+    )]
+    Damaged {
+        /// Path of the file.
+        name: String,
+        /// Reason given by the decoder.
+        reason: String,
+    },
     /// We cannot convert the colours of the picture to sRGB.
     #[error("{name}: {reason}")]
     #[hint("convert it to sRGB in an image editor")]
@@ -330,10 +353,15 @@ pub(crate) fn tiff_profile(file: &[u8]) -> TiffResult<Option<Vec<u8>>> {
 /// # Errors
 /// [`ProfileError`] for a damaged profile, one of inks, and one for another number of channels.
 pub fn to_srgb(image: DynamicImage, profile: &[u8]) -> Result<DynamicImage, ProfileError> {
-    fn unusable(error: moxcms::CmsError) -> ProfileError {
-        ProfileError::Unusable(error.to_string())
-    }
-    let source = ColorProfile::new_from_slice(profile).map_err(unusable)?;
+    converted(image, &ColorProfile::new_from_slice(profile).map_err(unusable)?)
+}
+
+fn unusable(error: moxcms::CmsError) -> ProfileError {
+    ProfileError::Unusable(error.to_string())
+}
+
+/// Converts a picture like [`to_srgb`], from the profile `source`.
+fn converted(image: DynamicImage, source: &ColorProfile) -> Result<DynamicImage, ProfileError> {
     let grey =
         matches!(image.color(), ColorType::L8 | ColorType::La8 | ColorType::L16 | ColorType::La16);
     match (source.color_space, grey) {

@@ -1,10 +1,13 @@
 //! Formats of pictures that we read: their names in messages, endings of file names and first
-//! bytes. Also a check for JPEG files that were cut off, because decoders paint the missing part
-//! grey.
+//! bytes. Also checks for JPEG files that were cut off or damaged, because decoders paint the missing
+//! part grey.
 
 use std::path::Path;
 
 use image::ImageFormat;
+use zune_jpeg::JpegDecoder;
+use zune_jpeg::zune_core::bytestream::ZCursor;
+use zune_jpeg::zune_core::options::DecoderOptions;
 
 /// Names of the formats. Use this in messages and help.
 pub const NAMES: &str = "PNG, JPEG, TIFF or WebP";
@@ -31,8 +34,44 @@ const START: [u8; 2] = [0xff, 0xd8];
 /// Second byte of the marker that ends the picture.
 const END: u8 = 0xd9;
 
-/// The reason to give for a file that [`is_cut_off_jpeg`].
-pub const CUT_OFF: &str = "the JPEG file is cut off: its end marker is missing";
+/// We look for damage in JPEG files of at most this many pixels. Larger ones are refused elsewhere.
+const MOST_CHECKED: usize = 1 << 27;
+/// What the decoder says of bytes between the segments of a header. They do no harm.
+const EXTRA_BYTES: &str = "Extra bytes";
+
+/// Why the coded data of a JPEG file cannot be decoded to their end. A decoder that goes on paints the rest grey.
+/// You get `None` for other files, and for a JPEG file that is whole.
+///
+/// A changed bit that leaves valid codes is not seen: the picture is then decoded as it stands.
+#[must_use]
+pub fn damage_of_jpeg(bytes: &[u8]) -> Option<String> {
+    if !bytes.starts_with(&START) {
+        return None;
+    }
+    let options = DecoderOptions::default()
+        .set_strict_mode(true)
+        .set_max_width(usize::MAX)
+        .set_max_height(usize::MAX);
+    let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
+    // The decoder of pictures tells what is wrong with headers.
+    decoder.decode_headers().ok()?;
+    let (width, height) = decoder.dimensions()?;
+    if width.saturating_mul(height) > MOST_CHECKED {
+        return None;
+    }
+    let reason = decoder.decode().err()?.to_string();
+    (!reason.contains(EXTRA_BYTES)).then_some(reason)
+}
+
+/// Why a JPEG file shows only a part of its picture: it is cut off, or damaged. You get `None` for other files,
+/// and for a JPEG file that is whole.
+#[must_use]
+pub fn fault_of_jpeg(bytes: &[u8]) -> Option<String> {
+    if is_cut_off_jpeg(bytes) {
+        return Some("the JPEG file is cut off: its end marker is missing".to_owned());
+    }
+    damage_of_jpeg(bytes).map(|reason| format!("the JPEG file is damaged: {reason}"))
+}
 
 /// Whether `bytes` are a JPEG file that stops before its end marker (ISO/IEC 10918-1, B.1.1). You
 /// need this only for JPEG: decoders of other formats refuse cut files.
@@ -130,6 +169,41 @@ mod tests {
         assert!(!is_cut_off_jpeg(&with_preview));
         assert!(is_cut_off_jpeg(&with_preview[..with_preview.len() - 2]));
         assert!(!is_cut_off_jpeg(b"\x89PNG"));
+    }
+
+    /// A noisy picture as JPEG.
+    fn noisy() -> Vec<u8> {
+        let picture = image::RgbImage::from_fn(160, 120, |x, y| {
+            let [r, g, b, _] = (x * 7919 + y * 104_729).wrapping_mul(2_654_435_761).to_le_bytes();
+            image::Rgb([r, g, b])
+        });
+        let mut whole = Vec::new();
+        JpegEncoder::new_with_quality(&mut whole, 90).encode_image(&picture).unwrap();
+        whole
+    }
+
+    #[test]
+    fn a_jpeg_with_a_broken_block_is_damaged() {
+        let whole = noisy();
+        assert_eq!(damage_of_jpeg(&whole), None);
+        // What follows the end, as in files with several pictures, does no harm.
+        assert_eq!(damage_of_jpeg(&[&whole[..], &[0; 40], &whole[..]].concat()), None);
+        // Bytes between two segments do no harm either.
+        let spaced = [&whole[..20], &[0; 8], &whole[20..]].concat();
+        assert_eq!(damage_of_jpeg(&spaced), None, "{:x?}", &whole[..24]);
+        // Ones throughout are no code, and a marker of tables has no place in coded data.
+        for pattern in [&[0xff, 0, 0xff, 0, 0xff, 0][..], &[0xff, 0xc7]] {
+            for place in 1..20 {
+                let mut broken = whole.clone();
+                let at = whole.len() / 2 + place * whole.len() / 50;
+                broken[at..at + pattern.len()].copy_from_slice(pattern);
+                let damage = damage_of_jpeg(&broken).unwrap();
+                assert!(fault_of_jpeg(&broken).unwrap().contains(&damage));
+                let error = Photograph::from_bytes("a.jpg", &broken).unwrap_err().to_string();
+                assert!(error.starts_with("a.jpg: the JPEG file is damaged: "), "{error}");
+            }
+        }
+        assert_eq!(damage_of_jpeg(b"\x89PNG"), None);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use documents::hint::Explain;
 
-use crate::picture_formats::{CUT_OFF, NAMES, is_cut_off_jpeg};
+use crate::picture_formats::{NAMES, fault_of_jpeg};
 
 /// Number of samples of a [`ToneRamp`], joined by straight lines.
 pub const TONES: usize = 256;
@@ -70,8 +70,8 @@ impl ToneRamp {
         }
         let bytes =
             documents::file::disk::read(path).map_err(|error| rejected(error.to_string(), path))?;
-        if is_cut_off_jpeg(&bytes) {
-            return Err(rejected(CUT_OFF.to_owned(), path));
+        if let Some(fault) = fault_of_jpeg(&bytes) {
+            return Err(rejected(fault, path));
         }
         let reader = image::ImageReader::new(std::io::Cursor::new(bytes));
         let reader =

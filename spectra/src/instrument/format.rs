@@ -7,7 +7,8 @@
 use super::decode::{Archive, decode_text, is_utf16, is_zip, lines};
 use super::measured::InstrumentError;
 use super::{
-    avantes, columns, field_spectrometers, light_meters, long_table, ocean_optics, workbook,
+    avantes, columns, envi_library, field_spectrometers, light_meters, long_table, ocean_optics,
+    workbook,
 };
 
 /// A file format of measuring instruments.
@@ -42,13 +43,15 @@ pub enum Format {
     Svc,
     /// UPRtek's light meters and the LI-COR LI-180.
     Uprtek,
+    /// ENVI spectral library: a header `.hdr` and its data `.sli`.
+    EnviLibrary,
     /// Excel workbook `.xlsx`: a table or columns in one of its sheets.
     Workbook,
 }
 
 impl Format {
     /// All formats, for lists of choices.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::Cgats,
         Self::Qtx,
         Self::OceanOptics,
@@ -63,6 +66,7 @@ impl Format {
         Self::SpectralEvolution,
         Self::Svc,
         Self::Uprtek,
+        Self::EnviLibrary,
         Self::Workbook,
     ];
 
@@ -84,6 +88,7 @@ impl Format {
             Self::SpectralEvolution => "sed",
             Self::Svc => "svc",
             Self::Uprtek => "uprtek",
+            Self::EnviLibrary => "envi",
             Self::Workbook => "xlsx",
         }
     }
@@ -106,6 +111,7 @@ impl Format {
             Self::SpectralEvolution => "Spectral Evolution",
             Self::Svc => "Spectra Vista",
             Self::Uprtek => "UPRtek or LI-180",
+            Self::EnviLibrary => "ENVI spectral library",
             Self::Workbook => "Excel workbook",
         }
     }
@@ -133,6 +139,8 @@ impl Format {
         }
         if start.starts_with("##") {
             return Some(Self::Jcamp);
+        } else if envi_library::is_header(text) {
+            return Some(Self::EnviLibrary);
         } else if field_spectrometers::is_sig(text) {
             return Some(Self::Svc);
         } else if field_spectrometers::is_asd_text(text) {
@@ -174,6 +182,7 @@ pub(super) enum ContentKind {
     AvaSoft7,
     AvaSoft8,
     ProcSpec,
+    EnviLibrary,
     Workbook,
 }
 
@@ -227,6 +236,8 @@ impl ContentKind {
             return Ok(Self::AvaSoft7);
         } else if avantes::is_avasoft8(bytes) {
             return Ok(Self::AvaSoft8);
+        } else if envi_library::is_data(file) {
+            return Ok(Self::EnviLibrary);
         }
         let not_read = |kind, way| InstrumentError::NotRead { file: file.to_owned(), kind, way };
         if is_zip(bytes) {

@@ -14,13 +14,13 @@ mod avantes;
 mod field_spectrometers;
 mod qtx;
 mod cgats;
-mod jcamp_data;
 mod jcamp;
 mod xml;
 mod light_meters;
 mod ocean_optics;
 mod workbook;
 mod cxf;
+mod envi_library;
 mod format;
 mod read;
 

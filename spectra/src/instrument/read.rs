@@ -11,8 +11,8 @@ use super::measured::{
 };
 use super::stated::{StatedValues, bare_values};
 use super::{
-    avantes, cgats, columns, cxf, field_spectrometers, jcamp, light_meters, long_table,
-    ocean_optics, qtx,
+    avantes, cgats, columns, cxf, envi_library, field_spectrometers, jcamp, light_meters,
+    long_table, ocean_optics, qtx,
 };
 
 /// The content of an instrument's file.
@@ -129,6 +129,7 @@ fn read_spectra(
         Format::SpectralEvolution => field_spectrometers::read_sed(file, &text.text),
         Format::Svc => field_spectrometers::read_sig(file, &text.text),
         Format::Uprtek => light_meters::read_uprtek(file, &text.text),
+        Format::EnviLibrary => envi_library::read_header(file, &text.text),
     }?;
     let format = if text.is_sheet && stated.is_none() { Format::Workbook } else { found };
     let mut found = checked(file, format, spectra)?;
@@ -147,6 +148,7 @@ fn read_binary(
     let own = match ContentKind::of(file, bytes)? {
         ContentKind::Asd => Format::Asd,
         ContentKind::ProcSpec => Format::OceanOptics,
+        ContentKind::EnviLibrary => Format::EnviLibrary,
         ContentKind::AvaSoft7 | ContentKind::AvaSoft8 => Format::Avantes,
         ContentKind::Text | ContentKind::Workbook => Format::Workbook,
     };
@@ -160,6 +162,7 @@ fn read_binary(
     let spectra = match ContentKind::of(file, bytes)? {
         ContentKind::Asd => field_spectrometers::read_asd_binary(file, bytes),
         ContentKind::ProcSpec => ocean_optics::read_procspec(file, bytes),
+        ContentKind::EnviLibrary => envi_library::read_data(file, bytes),
         ContentKind::AvaSoft7 => avantes::read_avasoft7(file, bytes),
         ContentKind::AvaSoft8 => avantes::read_avasoft8(file, bytes),
         ContentKind::Text | ContentKind::Workbook => Ok(Vec::new()),

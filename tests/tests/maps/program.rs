@@ -360,3 +360,133 @@ fn residuals_that_do_not_serve_are_refused_with_the_way_out() {
     let both = map_with_residuals(&scan, &["--residuals", &few, "--model-error", "0.1"]);
     assert!(both.status == 2 && both.err.contains("cannot be used with"), "{}", both.err);
 }
+
+/// A table of spectra of known mixtures, in percent if `percent`.
+fn spots(folder: &Path, percent: bool) -> String {
+    let oils = PigmentLibrary::van_gogh_oils();
+    let nm: Vec<String> = oils.grid.wavelengths_nm().map(|nm| nm.to_string()).collect();
+    let mut text = format!("sample,{}\n", nm.join(","));
+    let known: [(&str, &[(&str, f64)]); 3] = [
+        ("sky", &[("Lead White", 0.9), ("Ultramarine", 0.1)]),
+        ("cheek", &[("Lead White", 0.7), ("Vermilion", 0.3)]),
+        ("corn", &[("Chrome Yellow", 1.0)]),
+    ];
+    for (name, parts) in known {
+        let mixture = oils.mix(oils.recipe(parts.iter().copied()).unwrap()).unwrap();
+        let scale = if percent { 100.0 } else { 1.0 };
+        let values = mixture.hiding(oils.saunderson).into_iter();
+        let values: Vec<String> = values.map(|value| format!("{:.5}", scale * value)).collect();
+        text += &format!("{name},{}\n", values.join(","));
+    }
+    let comb = (0..oils.grid.count()).map(|at| if at % 4 < 2 { "0.05" } else { "0.9" });
+    if !percent {
+        text += &format!("comb,{}\n", comb.collect::<Vec<_>>().join(","));
+    }
+    let path = folder.join(if percent { "percent.csv" } else { "spots.csv" });
+    std::fs::write(&path, text).unwrap();
+    path.display().to_string()
+}
+
+#[test]
+fn pigments_of_measured_spots_are_identified() {
+    let folder = tempfile::tempdir().unwrap();
+    for percent in [false, true] {
+        let spots = spots(folder.path(), percent);
+        let run = impasto(&["identify", &spots, "--json"]);
+        assert_eq!(run.status, 0, "{}", run.err);
+        let json = run.json();
+        for (at, spot, pigment, share) in [
+            (0, "sky", "Ultramarine", 0.1),
+            (1, "cheek", "Vermilion", 0.3),
+            (2, "corn", "Chrome Yellow", 1.0),
+        ] {
+            let found = &json["spectra"][at];
+            assert_eq!([&found["spectrum"], &found["result"]], [spot, "mapped"], "{found}");
+            let pigments = found["pigments"].as_array().unwrap();
+            let own =
+                pigments.iter().find(|one| one["pigment"].as_str().unwrap().contains(pigment));
+            let own = own.unwrap_or_else(|| panic!("{pigment}: {pigments:?}"));
+            let near = (own["share"].as_f64().unwrap() - share).abs() < 0.05;
+            assert!(near && own["presence"].as_f64().unwrap() > 0.5, "{own}");
+            assert!(found["sets"][0]["probability"].as_f64().unwrap() > 0.1, "{found}");
+            assert!(found["chi2"].as_f64().unwrap() < 1.0, "{found}");
+        }
+        assert!(run.err.contains("2 of 20 pigments take no part"), "{}", run.err);
+        assert!(run.err.contains("Zinc White (linseed), Chrome Yellow (poppyseed)"), "{}", run.err);
+        assert!(run.err.contains("--palette"), "{}", run.err);
+    }
+    let spots = folder.path().join("spots.csv").display().to_string();
+    let text = impasto(&["identify", &format!("{spots}#cheek")]);
+    assert!(text.out.contains("cheek: residual") && text.out.contains("Vermilion"), "{}", text.out);
+    assert!(!text.out.contains("sky"), "one spectrum by name: {}", text.out);
+    let whole = impasto(&["identify", &spots, "--csv"]);
+    let head = "spectrum,result,set,probability,pigment,share,share_sd,presence,chi2,rms\n";
+    assert!(whole.out.starts_with(head), "{}", whole.out);
+    let comb = whole.out.lines().find(|line| line.starts_with("comb,")).unwrap();
+    assert!(comb.starts_with("comb,out of gamut,,,,,,,"), "{comb}");
+}
+
+#[test]
+fn spectra_of_an_envi_library_are_identified_and_no_scan() {
+    let folder = tempfile::tempdir().unwrap();
+    let oils = PigmentLibrary::van_gogh_oils();
+    let recipe = oils.recipe([("Lead White", 0.7), ("Vermilion", 0.3)]).unwrap();
+    let curve = oils.mix(recipe).unwrap().hiding(oils.saunderson);
+    let nm: Vec<String> = oils.grid.wavelengths_nm().map(|nm| nm.to_string()).collect();
+    let header = format!(
+        "ENVI\nsamples = {}\nlines = 1\nbands = 1\ndata type = 12\nfile type = ENVI Spectral Library\n\
+         wavelength units = Nanometers\nreflectance scale factor = 10000\nspectra names = {{cheek}}\n\
+         wavelength = {{{}}}\n",
+        nm.len(),
+        nm.join(", ")
+    );
+    let data = curve.iter().flat_map(|value| ((value * 10_000.0).round() as u16).to_le_bytes());
+    let [head, own] = ["skin.hdr", "skin.sli"].map(|name| folder.path().join(name));
+    std::fs::write(&head, header).unwrap();
+    std::fs::write(&own, data.collect::<Vec<u8>>()).unwrap();
+    for path in [head, own].map(|path| path.display().to_string()) {
+        let run = impasto(&["identify", &path]);
+        assert_eq!(run.status, 0, "{}", run.err);
+        assert!(
+            run.out.contains("cheek: residual 0.00") && run.out.contains("Vermilion"),
+            "{}",
+            run.out
+        );
+        let refused = impasto(&["map", &path]);
+        assert!(refused.status == 1 && refused.err.contains("impasto identify"), "{}", refused.err);
+        assert!(refused.err.contains("which is not a scan"), "{}", refused.err);
+    }
+}
+
+#[test]
+fn what_identify_and_map_cannot_read_is_refused_with_the_other_verb() {
+    let folder = tempfile::tempdir().unwrap();
+    let spots = spots(folder.path(), false);
+    let library = repository("measurements/van-gogh-oils.pigments.json");
+    let missing = folder.path().join("lost.csv").display().to_string();
+    let scan = written_scan(folder.path(), 6, 8000.0).display().to_string();
+    for (words, status, message) in [
+        (vec!["map", &spots], 1, "holds spectra of points, not a scan"),
+        (vec!["map", &spots], 1, "impasto identify"),
+        (vec!["identify", &missing], 2, "there is no such file"),
+        (vec!["identify", &library, &spots], 2, "the spectra go first"),
+        (vec!["identify", &spots, "--at-most", "9"], 2, "at_most must be 1 to 4"),
+        (vec!["identify", &spots, "--palette", "Gamboge"], 2, "Gamboge"),
+        (vec!["map", &scan], 1, "--scale 10000"),
+        (vec!["map", &scan, "--scale", "white"], 2, "found `white`"),
+        (vec!["map", &scan, "--scale", "8000", "--percent"], 2, "cannot be used with"),
+    ] {
+        let run = impasto(&words);
+        assert_eq!(run.status, status, "{words:?}: {}", run.err);
+        assert!(run.err.contains(message), "{words:?}: {}", run.err);
+    }
+    let run = impasto(&["map", &scan, "--scale", "8000", "--json"]);
+    assert_eq!(run.status, 0, "{}", run.err);
+    assert!(figure(&run.json(), "Lead White", "survey_part") > 0.3, "{}", run.out);
+    let text = std::fs::read_to_string(&scan).unwrap() + "data units = Reflectance\n";
+    std::fs::write(&scan, text).unwrap();
+    let run = impasto(&["map", &scan, "--json"]);
+    assert_eq!(run.status, 0, "{}", run.err);
+    assert!(run.err.contains("warning: a white is taken to read 10000"), "{}", run.err);
+    assert!(run.err.contains("--scale 10000"), "{}", run.err);
+}

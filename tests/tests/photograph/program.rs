@@ -4,6 +4,7 @@ use std::path::Path;
 
 use graphics::export::png8;
 use graphics::field::Field;
+use image::{ImageFormat, RgbImage};
 use paint::document::Medium;
 use paint::ground::GroundSpec;
 use paint::light::Light;
@@ -48,10 +49,26 @@ fn what_cannot_be_painted_is_refused_with_a_way_out() {
     let text = file("text.png");
     let out = file("out.png");
     std::fs::write(&text, "no picture").unwrap();
+    let broken = file("broken.jpg");
+    let mut jpeg = std::io::Cursor::new(Vec::new());
+    let noise =
+        RgbImage::from_fn(64, 64, |x, y| [(x * y) as u8, (x * 31) as u8, (y * 17) as u8].into());
+    noise.write_to(&mut jpeg, ImageFormat::Jpeg).unwrap();
+    let mut jpeg = jpeg.into_inner();
+    let middle = jpeg.len() / 2;
+    // Ones throughout are no code.
+    jpeg[middle..middle + 6].copy_from_slice(&[0xff, 0, 0xff, 0, 0xff, 0]);
+    std::fs::write(&broken, jpeg).unwrap();
     let with = |option, value| paint(&photo, &["--picture", &out, option, value]);
-    let refused: [(Run, u8, &str, &str); 11] = [
+    let refused: [(Run, u8, &str, &str); 12] = [
         (paint(&missing, &["--picture", &out]), 2, "none.png", "hint:"),
         (paint(&text, &["--picture", &out]), 1, "text.png", "hint:"),
+        (
+            paint(&broken, &["--picture", &out]),
+            1,
+            "broken.jpg: the JPEG file is damaged",
+            "hint: copy",
+        ),
         (with("--palette", "Zinc White,Mauvein"), 1, "`Mauvein`", "hint:"),
         (with("--palette", "Zinc White,Zinc White"), 2, "once", "hint: leave"),
         (with("--brushes", "16,0"), 2, "--brushes takes 0.5 to 100, found `0`", "hint: brushes"),

@@ -5,6 +5,7 @@ mod technique;
 mod animation;
 mod report;
 mod map;
+mod identify;
 mod simulate_scan;
 mod paint;
 mod relight;
@@ -24,6 +25,7 @@ use crate::failure::Result;
 pub(crate) enum PictureVerb {
     Report(report::Report),
     Map(Box<map::Map>),
+    Identify(Box<identify::Identify>),
     SimulateScan(simulate_scan::SimulateScan),
     Paint(Box<paint::Paint>),
     Relight(Box<relight::Relight>),
@@ -39,6 +41,7 @@ impl PictureVerb {
         match self {
             Self::Report(verb) => verb.run(console),
             Self::Map(verb) => verb.run(console),
+            Self::Identify(verb) => verb.run(console),
             Self::SimulateScan(verb) => verb.run(console),
             Self::Paint(verb) => verb.run(console),
             Self::Relight(verb) => verb.run(console),

@@ -12,6 +12,7 @@ from impasto.cube import Cube
 from impasto.errors import Error, FileError, FindingWarning, FitError, ReadingError, RecipeError
 from impasto.film import Film, film
 from impasto.fitting import Fit, Surface, Validation, fit, validate
+from impasto.identifying import Identified, Spot, identify
 from impasto.library import Library, Pigment
 from impasto.light import Light
 from impasto.maps import PigmentMaps, Survey, pigment_map, survey
@@ -33,6 +34,7 @@ __all__ = [
     "FindingWarning",
     "Fit",
     "FitError",
+    "Identified",
     "Library",
     "Light",
     "Match",
@@ -47,6 +49,7 @@ __all__ = [
     "Report",
     "Residuals",
     "Spectrum",
+    "Spot",
     "Surface",
     "Survey",
     "Validation",
@@ -55,6 +58,7 @@ __all__ = [
     "compare",
     "film",
     "fit",
+    "identify",
     "pigment_map",
     "plan",
     "read",

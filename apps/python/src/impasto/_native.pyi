@@ -25,6 +25,7 @@ __all__ = [
     "compare",
     "film",
     "fit",
+    "identify",
     "plan",
     "quadrature",
     "recipes_for",
@@ -201,6 +202,14 @@ def film(
     light: Light,
     observer: str,
 ) -> tuple[str, _Remarks]: ...
+def identify(
+    library: Library,
+    names: list[str],
+    grid_numbers: _Grid,
+    values: Floats,
+    request: str,
+    residuals: Residuals | None,
+) -> tuple[str, _Remarks]: ...
 def plan(
     pigments: list[str],
     white: str,
@@ -227,7 +236,7 @@ class Cube:
     @property
     def wavelengths(self) -> Floats: ...
     @property
-    def remarks(self) -> list[str]: ...
+    def remarks(self) -> _Remarks: ...
     def read(
         self, rows: tuple[int, int], columns: tuple[int, int]
     ) -> tuple[NDArray[np.float32], NDArray[np.uint8]]: ...
@@ -244,6 +253,8 @@ class Survey:
         book: str | None,
         progress: _Progress,
     ) -> Survey: ...
+    @property
+    def remarks(self) -> _Remarks: ...
     def book(self) -> str: ...
     def about(self) -> str: ...
     def begin(self, path: _Path, resume: bool) -> list[tuple[str, int]]: ...

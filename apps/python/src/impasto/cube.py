@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from impasto import _native
-from impasto.errors import Error
+from impasto.errors import Error, notes_of, warn, warnings_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -48,6 +48,7 @@ class Cube:
         dark_reading: str | os.PathLike[str] | None = None,
         tile: float = 1.0,
         percent: bool | None = None,
+        scale: float | None = None,
         full_scale: float | None = None,
         wavelengths: str | os.PathLike[str] | None = None,
         variable: str | None = None,
@@ -56,7 +57,8 @@ class Cube:
         folder of one picture a band.
 
         Scans of raw counts need `white_reading` and `dark_reading` (`"0"` where it is subtracted already);
-        `tile` is the white's own reflectance. `percent` states the unit. `wavelengths` is a file of them
+        `tile` is the white's own reflectance. `percent` states the unit; `scale` is the number that a white reads,
+        such as 10000. `wavelengths` is a file of them
         for scans that name none, `variable` the array of a Zarr group that holds several.
         """
         scales = {None: None, True: "percent", False: "fraction"}
@@ -64,11 +66,13 @@ class Cube:
             "white_reading": None if white_reading is None else os.fspath(white_reading),
             "dark_reading": None if dark_reading is None else os.fspath(dark_reading),
             "tile": float(tile),
-            "scale": scales[percent],
+            "scale": scales[percent] if scale is None else float(scale),
             "full_scale": None if full_scale is None else float(full_scale),
             "wavelengths": None if wavelengths is None else os.fspath(wavelengths),
             "variable": variable,
         }
+        if percent is not None and scale is not None:
+            raise Error("percent and scale exclude each other", "leave one of them out")
         if not 0 < tile <= 1.2:
             raise Error(f"tile is a reflectance above 0 and up to 1.2, found {tile}")
         return cls._opened(os.fspath(path), options)
@@ -76,7 +80,9 @@ class Cube:
     @classmethod
     def _opened(cls, path: str, options: dict[str, Any]) -> Cube:
         """Opens a scan with the keys of `CubeOptions` in docs/schema/requests.json."""
-        return cls(_native.Cube.open(path, json.dumps(options)), path, options)
+        cube = cls(_native.Cube.open(path, json.dumps(options)), path, options)
+        warn(cube.warnings)
+        return cube
 
     @property
     def shape(self) -> tuple[int, int, int]:
@@ -91,7 +97,12 @@ class Cube:
     @property
     def notes(self) -> list[str]:
         """How the file was understood."""
-        return self._native.remarks
+        return notes_of(self._native.remarks)
+
+    @property
+    def warnings(self) -> list[str]:
+        """Guesses about the file, and parts of it that are left out."""
+        return warnings_of(self._native.remarks)
 
     def read(
         self, rows: slice = slice(None), columns: slice = slice(None)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from impasto import _native
 from impasto.cube import Cube
 from impasto.display import listed, table
-from impasto.errors import Error
+from impasto.errors import Error, notes_of, warn, warnings_of
 from impasto.library import Library
 from impasto.residuals import Residuals
 from impasto.spectrum import Spectrum
@@ -50,6 +50,23 @@ class Survey:
         self._settings = settings
         self.about: dict[str, Any] = json.loads(native.about())
         """Palette, groups, hashes and settings, with the keys of `impasto map --json`."""
+        warn(self.warnings)
+
+    @property
+    def left_out(self) -> list[str]:
+        """Pigments that take no part because their S was not measured: others stand in for them."""
+        result: list[str] = self.about["left_out"]
+        return result
+
+    @property
+    def warnings(self) -> list[str]:
+        """Warnings about the pigments that take part."""
+        return warnings_of(self._native.remarks)
+
+    @property
+    def notes(self) -> list[str]:
+        """Pigments that take no part, and why."""
+        return notes_of(self._native.remarks)
 
     @property
     def palette(self) -> dict[str, float]:
@@ -73,9 +90,9 @@ class Survey:
     def _repr_html_(self) -> str:
         rows = [[n, f"{100 * part:.1f} %"] for n, part in self.palette.items() if part > 0.001]
         alike = [", ".join(names) for names in self.groups.values()]
-        return table(["pigment", "part of the pixels"], rows, repr(self).strip("<>")) + listed(
-            "Mapped as one, since the bands cannot tell them apart", alike
-        )
+        whole = table(["pigment", "part of the pixels"], rows, repr(self).strip("<>"))
+        whole += listed("Mapped as one, since the bands cannot tell them apart", alike)
+        return whole + listed("Notes", self.notes)
 
 
 @dataclass(frozen=True)

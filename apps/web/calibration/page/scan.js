@@ -81,7 +81,7 @@ async function open() {
   told = found;
   const { name, lines, samples, wavelengths_nm: nm, remarks } = told;
   const line = `${name}: ${lines} x ${samples} pixels, ${nm.length} ${nm.length === 1 ? "band" : "bands"} from ${nm[0]} to ${nm.at(-1)} nm`;
-  const notes = remarks.map((text) => ({ warning: false, text }));
+  const notes = [...remarks];
   if (lines * samples > MANY) notes.push({ warning: false, text: `${(lines * samples).toLocaleString("en")} pixels take minutes`, hint: "map some rows and columns, or every n-th pixel, in \"Pixels and pigments\"" });
   $("scan-told").replaceChildren(element("p", {}, line), ...remarkList(notes));
   $("scan-start").disabled = false;
@@ -106,10 +106,10 @@ async function map() {
   });
   if (!done) return;
   mapped = done.about;
-  const { words, groups, unmapped, json } = mapped;
+  const { words, groups, remarks, unmapped, json } = mapped;
   const named = json.palette.filter((found) => found.survey_part >= NAMED);
   $("scan-words").textContent = words;
-  $("scan-notes").replaceChildren(...[...groups, ...unmapped].map((text) => element("p", { className: "fine" }, text)));
+  $("scan-notes").replaceChildren(...[...groups, ...unmapped].map((text) => element("p", { className: "fine" }, text)), ...remarkList(remarks));
   fillTable(named);
   $("scan-result").hidden = false;
   showMaps(done, named);

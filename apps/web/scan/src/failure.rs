@@ -1,6 +1,8 @@
 //! Errors of the libraries, in the words of the panel.
 
 use documents::hint::Explain;
+use pigment::{Remark, RemarkKind};
+use serde_json::{Value, json};
 
 pub(crate) use told::Result;
 
@@ -23,6 +25,18 @@ const CONTROLS: [(&str, &str); 11] = [
 /// A request that the page passes as JSON.
 pub(crate) fn request<T: serde::de::DeserializeOwned>(json: &str) -> Result<T> {
     told::request(json, &CONTROLS)
+}
+
+/// For each remark: `warning`, `text` and `hint`.
+pub(crate) fn remarks<'a>(remarks: impl IntoIterator<Item = &'a Remark>) -> Value {
+    let told = remarks.into_iter().map(|remark| {
+        json!({
+            "warning": remark.kind == RemarkKind::Warning,
+            "text": remark.text,
+            "hint": remark.hint.as_ref().map(|hint| told::hint_text(hint, &CONTROLS)),
+        })
+    });
+    told.collect()
 }
 
 /// Results whose errors reach the page.

@@ -6,7 +6,7 @@ use pigment::PigmentLibrary;
 use serde_json::{Value, json};
 use wasm_bindgen::prelude::*;
 
-use crate::failure::{Result, Told};
+use crate::failure::{Result, Told, remarks};
 
 /// Maps of a scan.
 #[wasm_bindgen]
@@ -39,6 +39,7 @@ impl Mapped {
         let about = json!({
             "words": scan.words(),
             "groups": scan.group_words(),
+            "remarks": remarks(scan.mapper().remarks()),
             "unmapped": overview.unmapped_words(),
             "pictures": named,
             "width": overview.width,

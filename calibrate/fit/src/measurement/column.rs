@@ -538,11 +538,16 @@ const COORDINATES: [&[&str]; 7] = [
 /// Whether the heading at `index` is a coordinate of a colour space, and the table has others of this
 /// space.
 pub(super) fn is_coordinate(headings: &[String], index: usize) -> bool {
-    let has = |name: &str| headings.iter().any(|heading| heading.trim() == name);
     // Some programs number what occurs twice: L, a, b, L2, c, h.
-    let own = headings[index].trim().trim_end_matches(['2', '3', '.']);
+    let bare = |heading: &str| -> String {
+        heading.trim().trim_end_matches(['2', '3', '.', '*', '\u{b0}']).to_owned()
+    };
+    let has = |name: &str| headings.iter().any(|heading| bare(heading) == name);
+    let own = bare(&headings[index]);
     COORDINATES.iter().any(|set| {
-        set.contains(&own) && has(set[0]) && set.iter().filter(|name| has(name)).count() > 1
+        set.contains(&own.as_str())
+            && has(set[0])
+            && set.iter().filter(|name| has(name)).count() > 1
     })
 }
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use documents::file::FileError;
 use documents::hint::Explain;
+use spectra::instrument::FileText;
 
 /// We cannot open or read a cube.
 #[derive(Debug, thiserror::Error, Explain)]
@@ -162,6 +163,15 @@ impl CubeError {
     }
 }
 
+/// Shortens a value of a file for messages.
+pub(crate) fn shortened(text: &str) -> String {
+    const LONGEST: usize = 40;
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}..", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
 /// Kinds of files that only other programs read, by their first bytes.
 const OTHERS: [(&[u8], &str, &str); 5] = [
     (
@@ -189,8 +199,36 @@ const OTHERS: [(&[u8], &str, &str); 5] = [
 
 /// Refuses a file that begins with `start` if only another program reads its kind.
 pub(crate) fn refuse_other_kinds(path: &Path, start: &[u8]) -> Result<(), CubeError> {
-    match OTHERS.iter().find(|(magic, ..)| start.starts_with(magic)) {
-        None => Ok(()),
-        Some((_, kind, way_out)) => Err(CubeError::format(path, format!("is {kind}"), *way_out)),
+    if let Some((_, kind, way_out)) = OTHERS.iter().find(|(magic, ..)| start.starts_with(magic)) {
+        return Err(CubeError::format(path, format!("is {kind}"), *way_out));
+    }
+    if holds_spectra(path, start) {
+        return Err(CubeError::format(
+            path,
+            "holds spectra of points, not a scan",
+            "`impasto identify SPOTS LIBRARY` names the pigments of each spectrum",
+        ));
+    }
+    Ok(())
+}
+
+/// Whether a file that begins with `start` is a text with numbers, a workbook, or a binary file of a
+/// spectrometer.
+fn holds_spectra(path: &Path, start: &[u8]) -> bool {
+    // An archive that goes on behind its start cannot be looked into.
+    if start.starts_with(b"PK") {
+        return path.extension().is_some_and(|end| end.eq_ignore_ascii_case("xlsx"));
+    }
+    match FileText::of(&path.display().to_string(), start) {
+        Ok(None) => true,
+        Ok(Some(FileText { text, .. })) => {
+            let is_plain = !text.chars().any(|c| c.is_control() && !c.is_whitespace());
+            let words = text.split(|c: char| c.is_whitespace() || matches!(c, ',' | ';'));
+            is_plain && words.filter(|word| word.parse::<f64>().is_ok()).count() >= FEWEST_NUMBERS
+        }
+        Err(_) => false,
     }
 }
+
+/// A text with fewer numbers at its start holds no spectrum.
+const FEWEST_NUMBERS: usize = 3;

@@ -1,9 +1,11 @@
 //! Interprets the raw values of a scan as reflectance, with white and dark readings where it has them.
 
+use pigment::Remark;
 use rayon::prelude::*;
 
 use super::error::CubeError;
 use super::options::{CubeOptions, CubeScale};
+use super::white::guessed_white;
 use super::window::{Conversion, Opened, Pixels, Terms, Values, Window};
 use crate::pixel_maps::Mask;
 
@@ -26,7 +28,7 @@ pub(crate) struct Interpreted {
     pub(crate) bands: Vec<usize>,
     pub(crate) white_sd: Option<Vec<f64>>,
     pub(crate) black_sd: Option<Vec<f64>>,
-    pub(crate) remarks: Vec<String>,
+    pub(crate) remarks: Vec<Remark>,
 }
 
 /// Raw values of pixels all over the scan, with their columns.
@@ -102,7 +104,7 @@ pub(crate) fn interpret(
     let mut black_sd = None;
     let terms = match referenced {
         Some(referenced) => {
-            remarks.extend(referenced.remarks);
+            remarks.extend(referenced.remarks.into_iter().map(Remark::note));
             white_sd = Some(referenced.white_sd);
             black_sd = Some(referenced.black_sd);
             referenced.terms
@@ -144,7 +146,7 @@ fn terms_of_values(
     scan: &Opened,
     largest: &[f32],
     options: &CubeOptions,
-    remarks: &mut Vec<String>,
+    remarks: &mut Vec<Remark>,
 ) -> Result<Terms, CubeError> {
     match options.scale {
         CubeScale::ByFile => {}
@@ -168,13 +170,25 @@ fn terms_of_values(
         }
         Values::Unknown { are_whole: false } if most <= MOST_FRACTION => Ok(Terms::One(1.0)),
         Values::Unknown { are_whole: false } if most <= MOST_PERCENT => {
-            remarks.push(format!("values up to {most} are taken for percent"));
+            remarks.push(Remark::note(format!("values up to {most} are taken for percent")));
             Ok(Terms::One(0.01))
         }
-        Values::Counts | Values::Unknown { .. } => {
-            Err(CubeError::NoReflectance { path: scan.path.clone(), largest: f64::from(most) })
+        Values::Counts => Err(no_reflectance(scan, most)),
+        Values::Unknown { .. } => {
+            let greatest = largest.last().copied().unwrap_or(most);
+            let guess = guessed_white(&scan.path, &scan.told, most.into(), greatest.into());
+            let Some(guess) = guess else { return Err(no_reflectance(scan, most)) };
+            let text = format!("a white is taken to read {}: {}", guess.white, guess.reason);
+            remarks.push(Remark::warning(text).with_hint(
+                "give the number that a white reads with [scale=10000], or [white_reading=FILE] for raw counts",
+            ));
+            Ok(Terms::One((1.0 / guess.white) as f32))
         }
     }
+}
+
+fn no_reflectance(scan: &Opened, most: f32) -> CubeError {
+    CubeError::NoReflectance { path: scan.path.clone(), largest: f64::from(most) }
 }
 
 /// Guesses the full scale from a maximum that several values share.

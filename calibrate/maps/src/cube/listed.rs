@@ -12,7 +12,7 @@ use super::scan::Cube;
 use super::window::Opened;
 
 /// We tell the kind of a file by this many first bytes.
-const START: usize = 16;
+const START: usize = 4096;
 /// Advice if a header or its data are missing.
 const BOTH: &str = "give the header (.hdr) and its data file together";
 

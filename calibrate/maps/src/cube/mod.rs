@@ -8,12 +8,16 @@
 mod error;
 mod options;
 mod window;
+mod white;
 mod interpret;
 mod raw_file;
 
 #[cfg(feature = "files")]
 mod side_files;
 pub mod envi;
+
+#[cfg(feature = "files")]
+mod gdal;
 
 #[cfg(feature = "files")]
 mod stack;

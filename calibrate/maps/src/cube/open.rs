@@ -20,8 +20,10 @@ use exr::meta::MetaData;
 use exr::meta::attribute::SampleType;
 use exr::meta::header::Header;
 use half::f16;
+use pigment::Remark;
 
 use super::error::{CubeError, refuse_other_kinds};
+use super::gdal::GdalMetadata;
 use super::listed::{OwnReadings, readings};
 use super::options::CubeOptions;
 use super::raw_file::Interleave;
@@ -47,7 +49,7 @@ impl Cube {
             true => {
                 let found = specim_scan(path)?;
                 let mut scan = open_scan(&found.scan, options)?;
-                scan.remarks.insert(0, found.remark.clone());
+                scan.remarks.insert(0, Remark::note(&found.remark));
                 (scan, Some(found))
             }
             false => (open_scan(path, options)?, None),
@@ -61,6 +63,9 @@ impl Cube {
 /// Opens the scan at `path`, whatever its kind.
 fn open_scan(path: &Path, options: &CubeOptions) -> Result<Opened, CubeError> {
     let mut scan = open_kind(path, options)?;
+    if scan.wavelengths_nm.is_none() && options.wavelengths.is_none() {
+        add_gdal_wavelengths(path, &mut scan)?;
+    }
     if let Some(file) = &options.wavelengths {
         let nm = wavelengths_of(file)?;
         if nm.len() != scan.bands {
@@ -70,6 +75,26 @@ fn open_scan(path: &Path, options: &CubeOptions) -> Result<Opened, CubeError> {
         scan.wavelengths_nm = Some(nm);
     }
     Ok(scan)
+}
+
+/// Takes wavelengths from the metadata that GDAL wrote beside a header or data of ENVI that names none.
+fn add_gdal_wavelengths(path: &Path, scan: &mut Opened) -> Result<(), CubeError> {
+    let places = envi::places(&scan.path).into_iter().chain([scan.path.clone(), path.to_owned()]);
+    for place in places.filter(|place| place.is_file()) {
+        let Some((file, metadata)) = GdalMetadata::beside(&place)? else { continue };
+        let found = metadata.wavelengths(scan.bands).map_err(|problem| {
+            let way_out = "give a file of wavelengths with [wavelengths=FILE]";
+            CubeError::format(&file, format!("the metadata of GDAL {problem}"), way_out)
+        })?;
+        if let Some(found) = found {
+            scan.remarks
+                .push(Remark::note(format!("wavelengths are read from {}", file.display())));
+            scan.remarks.extend(found.remark.map(Remark::note));
+            scan.wavelengths_nm = Some(found.nm);
+            return Ok(());
+        }
+    }
+    Ok(())
 }
 
 fn open_kind(path: &Path, options: &CubeOptions) -> Result<Opened, CubeError> {
@@ -222,7 +247,33 @@ fn is_exr(start: &[u8]) -> bool {
 
 /// Wavelength in nm of a channel of reflectance, e.g. `T.550,5nm`.
 fn channel_nm(name: &str) -> Option<f64> {
-    let number = name.strip_prefix("T.")?;
+    nm_of(name.strip_prefix("T.")?)
+}
+
+/// Whether a channel holds light that comes back at another wavelength than it fell in, e.g.
+/// `T.400,0nm.450,0nm` (Fichet et al. 2021, section 3.4: a bispectral reradiation).
+fn is_fluorescence(name: &str) -> bool {
+    let pair = name.strip_prefix("T.").and_then(|pair| {
+        let unit = pair.find("m.")? + 1;
+        Some((nm_of(&pair[..unit])?, nm_of(&pair[unit + 1..])?))
+    });
+    pair.is_some()
+}
+
+/// A remark on channels of fluorescence, which a map leaves out.
+fn fluorescence_remark(meta: &MetaData) -> Option<Remark> {
+    let channels = meta.headers.iter().flat_map(|header| &header.channels.list);
+    let names: Vec<String> = channels.map(|channel| channel.name.to_string()).collect();
+    let of: Vec<&String> = names.iter().filter(|name| is_fluorescence(name)).collect();
+    let first = of.first()?;
+    let count = documents::counted(of.len(), "channel");
+    Some(Remark::warning(format!(
+        "fluorescence is left out ({count}, such as {first}): we read only light that comes back at its own wavelength"
+    )))
+}
+
+/// A wavelength with its unit in nm, e.g. `550,5nm`.
+fn nm_of(number: &str) -> Option<f64> {
     let (number, factor) = match number.strip_suffix("nm") {
         Some(number) => (number, 1.0),
         None => (number.strip_suffix("um")?, 1000.0),
@@ -263,6 +314,7 @@ fn open_exr(path: &Path, options: &CubeOptions) -> Result<Opened, CubeError> {
             "export the painting with its spectra",
         ));
     };
+    let remarks = fluorescence_remark(reader.meta_data());
     if let Some(pair) = found.windows(2).find(|pair| pair[0].1 == pair[1].1) {
         let problem = format!("has two channels at {} nm", pair[0].1);
         return Err(CubeError::format(path, problem, "export each wavelength once"));
@@ -308,8 +360,9 @@ fn open_exr(path: &Path, options: &CubeOptions) -> Result<Opened, CubeError> {
         ignore: None,
         // The layout says that these channels are reflectances.
         values: Values::Divided(1.0),
+        told: Vec::new(),
         integration_time: None,
-        remarks: Vec::new(),
+        remarks: remarks.into_iter().collect(),
         source: Box::new(spool.finish(path)?),
     })
 }
@@ -345,6 +398,16 @@ mod tests {
         assert_eq!(channel_nm("T.0,55um"), Some(550.0));
         for other in ["R", "S0.550,000000nm", "T.nm", "T.-5nm", "T.550"] {
             assert_eq!(channel_nm(other), None, "{other}");
+        }
+    }
+
+    #[test]
+    fn channels_of_two_wavelengths_are_fluorescence() {
+        for name in ["T.400,0nm.450,0nm", "T.400,000000nm.420,000000nm", "T.0,4um.0,5um"] {
+            assert!(is_fluorescence(name) && channel_nm(name).is_none(), "{name}");
+        }
+        for name in ["T.400,0nm", "T.nm.450nm", "S0.400,0nm", "T.m.", "T.400,0nm.blue"] {
+            assert!(!is_fluorescence(name), "{name}");
         }
     }
 }

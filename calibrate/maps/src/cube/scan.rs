@@ -5,6 +5,7 @@
 use std::ops::{Range, RangeInclusive};
 use std::path::{Path, PathBuf};
 
+use pigment::Remark;
 use sha2::{Digest, Sha256};
 
 use super::error::CubeError;
@@ -33,7 +34,7 @@ pub struct Cube {
     fwhm_nm: Option<Vec<f64>>,
     white_sd: Option<Vec<f64>>,
     black_sd: Option<Vec<f64>>,
-    remarks: Vec<String>,
+    remarks: Vec<Remark>,
     /// Indices of the bands in the file.
     bands: Vec<usize>,
     conversion: Conversion,
@@ -134,9 +135,9 @@ impl Cube {
         }
     }
 
-    /// Sentences about how we understood the file.
+    /// How we understood the file. A warning tells of a guess, or of a part of the file that we leave out.
     #[must_use]
-    pub fn remarks(&self) -> &[String] {
+    pub fn remarks(&self) -> &[Remark] {
         &self.remarks
     }
 

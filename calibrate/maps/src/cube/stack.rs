@@ -5,12 +5,14 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
+use pigment::Remark;
 use png::{BitDepth, ColorType, Decoder, DecodingError, Reader};
 use tiff::decoder::{Decoder as TiffDecoder, DecodingResult};
 use tiff::tags::{PlanarConfiguration, Tag};
 use tiff::{ColorType as TiffColor, TiffError};
 
 use crate::cube::error::CubeError;
+use crate::cube::gdal::GdalMetadata;
 use crate::cube::options::CubeOptions;
 use crate::cube::raw_file::Interleave;
 use crate::cube::side_files::{Spool, wavelengths_of};
@@ -162,8 +164,9 @@ pub(crate) fn open_folder(folder: &Path, options: &CubeOptions) -> Result<Opened
         fwhm_nm: None,
         ignore: None,
         values: Values::Unknown { are_whole: plane.number_type.is_whole() },
+        told: Vec::new(),
         integration_time: None,
-        remarks: vec![remark],
+        remarks: vec![Remark::note(remark)],
         source: Box::new(spool.finish(folder)?),
     })
 }
@@ -226,6 +229,9 @@ pub(crate) fn unpack_png(
     }
     Ok(())
 }
+
+/// Tag in which GDAL stores its metadata as XML.
+const GDAL_METADATA: u16 = 42112;
 
 /// We read at most this many bands, so that a file with pages in a circle ends.
 const MOST_BANDS: usize = 65_536;
@@ -365,11 +371,30 @@ fn list_beside(path: &Path) -> Option<PathBuf> {
     named.into_iter().chain(common).find(|place| place.is_file())
 }
 
+/// GDAL's metadata of the current page of the decoder.
+fn gdal_metadata(pages: &mut Pages, path: &Path) -> Result<GdalMetadata, CubeError> {
+    let tag =
+        pages.find_tag(Tag::Unknown(GDAL_METADATA)).map_err(|error| tiff_fault(path, error))?;
+    let text = tag.and_then(|value| value.into_string().ok()).unwrap_or_default();
+    Ok(GdalMetadata::parse(&text))
+}
+
+/// Value that marks pixels without data, from the tag of GDAL.
+fn ignored(pages: &mut Pages, path: &Path) -> Result<Option<f64>, CubeError> {
+    let tag = pages.find_tag(Tag::GdalNodata).map_err(|error| tiff_fault(path, error))?;
+    let text = tag.and_then(|value| value.into_string().ok()).unwrap_or_default();
+    Ok(text.trim_matches(['\0', ' ']).parse().ok())
+}
+
 /// Opens a TIFF file with a page for each wavelength, or with several values a pixel in its pages,
-/// first page first. We take the wavelengths from the settings or from a list beside the file.
+/// first page first. We take the wavelengths from the settings, from a list beside the file, or from
+/// GDAL's metadata.
 pub(crate) fn open_pages(path: &Path, options: &CubeOptions) -> Result<Opened, CubeError> {
     let mut decoder = tiff_pages(path)?;
     let first = tiff_plane(&mut decoder, path, "page 1")?;
+    let mut metadata = gdal_metadata(&mut decoder, path)?;
+    let ignore = ignored(&mut decoder, path)?;
+    let mut pages = Vec::new();
     let mut count = 1;
     while decoder.more_images() {
         if count * first.bands >= MOST_BANDS {
@@ -380,12 +405,25 @@ pub(crate) fn open_pages(path: &Path, options: &CubeOptions) -> Result<Opened, C
         count += 1;
         let place = format!("page {count}");
         tiff_plane(&mut decoder, path, &place)?.check_like(first, path, &place)?;
+        pages.push(gdal_metadata(&mut decoder, path)?);
+    }
+    if !pages.is_empty() {
+        let of_first = std::mem::take(&mut metadata);
+        for (page, found) in std::iter::once(of_first).chain(pages).enumerate() {
+            metadata.add_page(found, page * first.bands);
+        }
+    }
+    let mut place = path.to_owned();
+    if let Some((beside, found)) = GdalMetadata::beside(path)? {
+        metadata.merge(found);
+        place = beside;
     }
     let bands = count * first.bands;
     let (each, has) = match first.bands {
         1 => ("a page", format!("{count} pages")),
         _ => ("a band", format!("{bands} bands")),
     };
+    let mut remarks = Vec::new();
     let nm = match (&options.wavelengths, list_beside(path)) {
         (Some(_), _) => None,
         (None, Some(list)) => {
@@ -401,9 +439,25 @@ pub(crate) fn open_pages(path: &Path, options: &CubeOptions) -> Result<Opened, C
             Some(nm)
         }
         (None, None) => {
+            let found = metadata.wavelengths(bands).map_err(|problem| {
+                let way_out = format!("give one wavelength in nm {each} with [wavelengths=FILE]");
+                CubeError::format(&place, format!("the metadata of GDAL {problem}"), way_out)
+            })?;
+            found.map(|found| {
+                remarks.extend(found.remark.map(Remark::note));
+                found.nm
+            })
+        }
+    };
+    let nm = match (nm, &options.wavelengths) {
+        (Some(nm), _) => Some(nm),
+        (None, Some(_)) => None,
+        (None, None) => {
             return Err(CubeError::format(
                 path,
-                format!("has {has}, but no list of their wavelengths is beside it"),
+                format!(
+                    "has {has}, but no list of their wavelengths is beside it, nor do metadata of GDAL name them"
+                ),
                 format!(
                     "add {} with one wavelength in nm {each}, or give [wavelengths=FILE]",
                     path.with_extension("txt").display()
@@ -428,10 +482,13 @@ pub(crate) fn open_pages(path: &Path, options: &CubeOptions) -> Result<Opened, C
         wavelengths_nm: nm,
         fwhm_nm: None,
         good: vec![true; bands],
-        ignore: None,
-        values: Values::Unknown { are_whole: first.number_type.is_whole() },
+        ignore,
+        values: metadata
+            .values(bands)
+            .unwrap_or(Values::Unknown { are_whole: first.number_type.is_whole() }),
+        told: metadata.told(),
         integration_time: None,
-        remarks: Vec::new(),
+        remarks,
         source: Box::new(spool.finish(path)?),
     })
 }

@@ -6,6 +6,7 @@ use std::fmt::Debug;
 use std::ops::Range;
 use std::path::PathBuf;
 
+use pigment::Remark;
 use rayon::prelude::*;
 
 use super::error::CubeError;
@@ -259,9 +260,10 @@ pub(crate) struct Opened {
     /// Value that marks pixels without data.
     pub(crate) ignore: Option<f64>,
     pub(crate) values: Values,
+    /// Texts of the file on its values, each with the name of its key.
+    pub(crate) told: Vec<(String, String)>,
     pub(crate) integration_time: Option<f64>,
-    /// Sentences that you should show to the user.
-    pub(crate) remarks: Vec<String>,
+    pub(crate) remarks: Vec<Remark>,
     pub(crate) source: Box<dyn Source>,
 }
 

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use pigment::Remark;
 use rayon::prelude::*;
 use serde_json::Value;
 
@@ -193,7 +194,7 @@ pub(crate) fn open(folder: &Path, options: &CubeOptions) -> Result<Opened, CubeE
             let way_out = "save wavelengths in nm, with the attribute units = nm";
             CubeError::format(&beside, format!("the coordinate {problem}"), way_out)
         })?;
-        remarks.extend(found.remark);
+        remarks.extend(found.remark.map(Remark::note));
         nm = Some(found.nm);
     }
     let number_type = array.about.number_type;
@@ -205,6 +206,11 @@ pub(crate) fn open(folder: &Path, options: &CubeOptions) -> Result<Opened, CubeE
             Values::Gains(vec![(scale.unwrap_or(1.0), offset.unwrap_or(0.0)); bands])
         }
     };
+    let told = ["long_name", "standard_name", "units"].into_iter().filter_map(|key| {
+        let text = array.about.attributes.get(key)?.as_str()?;
+        Some((key.to_owned(), text.to_owned()))
+    });
+    let told = told.collect();
     Ok(Opened {
         path: place,
         lines,
@@ -215,6 +221,7 @@ pub(crate) fn open(folder: &Path, options: &CubeOptions) -> Result<Opened, CubeE
         good: vec![true; bands],
         ignore: attribute(&array, "_FillValue").or_else(|| attribute(&array, "missing_value")),
         values,
+        told,
         integration_time: None,
         remarks,
         source: Box::new(ZarrSource::new(array, axes)),

@@ -7,6 +7,7 @@
 use calibrate::{Residuals, ResidualsError};
 use nalgebra::{DMatrix, SymmetricEigen};
 use pigment::PigmentLibrary;
+use serde_json::{Value, json};
 
 use super::bands::{Bands, Ground};
 use crate::pixel_maps::MapError;
@@ -157,6 +158,19 @@ impl ModelError {
                 residuals.mixtures.len(),
                 residuals.sha256()
             ),
+        }
+    }
+}
+
+impl ModelError {
+    /// The stated error, or the number of mixtures and the hash of the residuals, as JSON.
+    pub(crate) fn to_json(&self) -> Value {
+        match self {
+            Self::Stated(relative) => json!(relative),
+            Self::Residuals(residuals) => json!({
+                "left_out_mixtures": residuals.mixtures.len(),
+                "residuals_sha256": residuals.sha256(),
+            }),
         }
     }
 }

@@ -302,6 +302,56 @@ impl PixelResult {
     }
 }
 
+/// A set of columns that explains a pixel.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ColumnSet {
+    /// Columns with their shares, the greatest first.
+    pub(crate) parts: Vec<(usize, f64)>,
+    /// Probability of the set, 0 to 1. All sets of a pixel add up to 1.
+    pub(crate) probability: f64,
+    /// Chi-square per degree of freedom.
+    pub(crate) chi2: f64,
+}
+
+/// Sets of columns among the sets `found` for a pixel, the most likely first. Sets of pigments with the same
+/// columns count as one, with the shares of the best of them. Pass the best first. We weight sets by
+/// [`Scores::weight`].
+pub(crate) fn column_sets(
+    found: &[SetFit],
+    column_of: &[usize],
+    engine: &Engine,
+) -> Vec<ColumnSet> {
+    let Some(best) = found.first() else { return Vec::new() };
+    let mut sets: Vec<(u64, ColumnSet)> = Vec::new();
+    for set in found.iter().take_while(|set| set.score < best.score + NEGLIGIBLE) {
+        let weight = Scores::weight(set.score - best.score);
+        let columns = set.columns(column_of);
+        if let Some((_, known)) = sets.iter_mut().find(|(bits, _)| *bits == columns) {
+            known.probability += weight;
+            continue;
+        }
+        let mut parts: Vec<(usize, f64)> = Vec::new();
+        for (member, share) in set.parts() {
+            let column = column_of[member];
+            match parts.iter_mut().find(|(known, _)| *known == column) {
+                Some((_, sum)) => *sum += f64::from(share),
+                None => parts.push((column, f64::from(share))),
+            }
+        }
+        parts.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+        let free = engine.films.bands.saturating_sub(set.len() - 1).max(1) as f64;
+        let chi2 = f64::from(set.chi2) / free;
+        sets.push((columns, ColumnSet { parts, probability: weight, chi2 }));
+    }
+    let total: f64 = sets.iter().map(|(_, set)| set.probability).sum();
+    let mut sets: Vec<ColumnSet> = sets.into_iter().map(|(_, set)| set).collect();
+    for set in &mut sets {
+        set.probability /= total;
+    }
+    sets.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+    sets
+}
+
 /// Gauss-Newton steps when we fit a mixture's own pigments.
 const STRENGTH_STEPS: usize = 12;
 /// Part of a normal distribution within one standard deviation.

@@ -4,8 +4,11 @@ pub(crate) mod book;
 pub(crate) mod groups;
 pub(crate) mod survey;
 
+use std::collections::BTreeMap;
+
 use documents::Task;
-use pigment::library::{Input, PigmentLibrary};
+use pigment::evaluate::Remark;
+use pigment::library::{Input, Pigment, PigmentLibrary};
 use rayon::prelude::*;
 
 use crate::films::bands::Bands;
@@ -14,7 +17,7 @@ use crate::pixel_maps::{BlockMaps, MapError, Mask};
 use crate::search::Scratch;
 use crate::search::set_fit::SetFit;
 use book::{Book, Folded, OpenBook, Prepared};
-use groups::{Column, Confusion, PixelResult, columns, strength_sd};
+use groups::{Column, ColumnSet, Confusion, PixelResult, column_sets, columns, strength_sd};
 use survey::{survey, survey_step};
 
 /// Gauss-Newton steps when a trial fits the true pigments.
@@ -53,6 +56,20 @@ pub struct Mapper {
     column_of: Vec<usize>,
     model_error: ModelError,
     identity: String,
+    left_out: Vec<String>,
+    remarks: Vec<Remark>,
+}
+
+/// How the sets of pigments of a full search explain one spectrum.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Explained {
+    /// Whether the spectrum can be mapped. The other fields are empty or NaN if we did not compare it.
+    pub(crate) mask: Mask,
+    pub(crate) result: PixelResult,
+    /// Sets of columns, the most likely first.
+    pub(crate) sets: Vec<ColumnSet>,
+    /// Single pigments of the best set with their shares.
+    pub(crate) best: Vec<(String, f64)>,
 }
 
 impl Mapper {
@@ -87,7 +104,22 @@ impl Mapper {
             .map(|name| columns.iter().position(|c| c.pigments.contains(name)).unwrap_or(0))
             .collect();
         let identity = identity(library, wavelengths, settings, &model_error);
-        Ok(Self { prepared, columns, column_of, model_error, identity })
+        let left_out = left_out(library, settings);
+        let remarks = remarks(library, &left_out, &prepared.paints.names);
+        Ok(Self { prepared, columns, column_of, model_error, identity, left_out, remarks })
+    }
+
+    /// Names of the pigments that take no part because K and S of them were not measured.
+    #[must_use]
+    pub fn left_out(&self) -> &[String] {
+        &self.left_out
+    }
+
+    /// Pigments of the library that take no part, and pigments that take part although K and S of
+    /// them were not measured.
+    #[must_use]
+    pub fn remarks(&self) -> &[Remark] {
+        &self.remarks
     }
 
     /// Columns of the maps: pigments, and groups of pigments that we map as one.
@@ -125,6 +157,18 @@ impl Mapper {
     #[must_use]
     pub fn model_error(&self) -> &ModelError {
         &self.model_error
+    }
+
+    /// A remark if the errors of the library are assumed, and the user did not state them.
+    #[must_use]
+    pub fn assumed_error(&self, is_stated: bool) -> Option<Remark> {
+        let assumed = !is_stated && matches!(self.model_error, ModelError::Stated(_));
+        assumed.then(|| {
+            let words = self.model_error.words();
+            Remark::note(format!("this library is taken to have {words}")).with_hint(
+                "`impasto validate READINGS [residuals=FILE.json]` measures its errors, and [residuals=FILE.json] takes them into account",
+            )
+        })
     }
 
     /// Identity of library, wavelengths and settings, in hexadecimal. A book is valid for one
@@ -214,14 +258,43 @@ impl Mapper {
         let Ok(folded) = self.prepared.fold(spectrum) else { return Ok(None) };
         let mut scratch = Scratch::new(&engine.films);
         book.find(&folded, &mut scratch);
-        let Some(best) = scratch.found.first() else { return Ok(None) };
-        let members = best.members.iter().zip(best.shares).take(usize::from(best.count));
+        Ok(scratch.found.first().map(|best| self.named(best)))
+    }
+
+    /// Pigments of a set with their shares, the greatest first.
+    fn named(&self, set: &SetFit) -> Vec<(String, f64)> {
         let names = &self.prepared.paints.names;
-        let mut set: Vec<(String, f64)> = members
-            .map(|(place, share)| (names[usize::from(*place)].clone(), f64::from(share)))
-            .collect();
-        set.sort_by(|a, b| b.1.total_cmp(&a.1));
-        Ok(Some(set))
+        let parts = set.parts().map(|(place, share)| (names[place].clone(), f64::from(share)));
+        let mut parts: Vec<(String, f64)> = parts.collect();
+        parts.sort_by(|a, b| b.1.total_cmp(&a.1));
+        parts
+    }
+
+    /// Searches all sets for one spectrum, without a survey.
+    ///
+    /// # Errors
+    /// [`MapError::Length`] unless `spectrum` has one reflectance a band.
+    pub(crate) fn explain(&self, spectrum: &[f32]) -> Result<Explained, MapError> {
+        let bands = self.prepared.bands.scan_bands;
+        if spectrum.len() != bands {
+            return Err(MapError::Length { values: spectrum.len(), bands });
+        }
+        let engine = &self.prepared.engine;
+        let mut result = PixelResult::new(self.columns.len());
+        let folded = match self.prepared.fold(spectrum) {
+            Ok(folded) => folded,
+            Err(mask) => {
+                (result.chi2, result.rms) = (f64::NAN, f64::NAN);
+                return Ok(Explained { mask, result, sets: Vec::new(), best: Vec::new() });
+            }
+        };
+        let mut scratch = Scratch::new(&engine.films);
+        engine.search(&folded.pixel, engine.table.nearest(&folded.projected), &mut scratch);
+        result.sum(engine, &folded.pixel, &scratch.found, &self.column_of);
+        let mask = if result.chi2 > OUT_OF_GAMUT { Mask::OutOfGamut } else { Mask::Mapped };
+        let sets = column_sets(&scratch.found, &self.column_of, engine);
+        let best = scratch.found.first().map_or_else(Vec::new, |best| self.named(best));
+        Ok(Explained { mask, result, sets, best })
     }
 
     /// Searches all sets for every pixel, without a survey. This is slow. Use it to see how much a
@@ -325,6 +398,55 @@ impl Mapper {
         }
         Ok(pixels)
     }
+}
+
+/// Pigments of `library` that take no part because K and S of them were not measured, if the settings name no
+/// palette.
+fn left_out(library: &PigmentLibrary, settings: &MapSettings) -> Vec<String> {
+    let pigments = library.ids().map(|id| &library[id]).filter(|_| settings.palette.is_empty());
+    pigments.filter(|pigment| why_unknown(pigment).is_some()).map(|p| p.name.clone()).collect()
+}
+
+/// Why K and S of a pigment are not known, and how you measure them.
+fn why_unknown(pigment: &Pigment) -> Option<(&'static str, &'static str)> {
+    match (pigment.guessed, pigment.identified) {
+        (true, _) => Some(("guessed from a colour, not measured", "measure them and fit again")),
+        (_, false) => Some((
+            "measured as masstones only, so that S is not known",
+            "measure mixtures of them, for example with white, and fit again",
+        )),
+        (false, true) => None,
+    }
+}
+
+/// Remarks on pigments with an unknown S: those in `left_out`, and those among the `names` that take part.
+fn remarks(library: &PigmentLibrary, left_out: &[String], names: &[String]) -> Vec<Remark> {
+    let all = library.ids().count();
+    let mut remarks = Vec::new();
+    for (listed, takes_part) in [(left_out, false), (names, true)] {
+        let mut by_reason: BTreeMap<(&str, &str), Vec<&str>> = BTreeMap::new();
+        for pigment in library.ids().map(|id| &library[id]).filter(|p| listed.contains(&p.name)) {
+            if let Some(reason) = why_unknown(pigment) {
+                by_reason.entry(reason).or_default().push(&pigment.name);
+            }
+        }
+        for ((why, way_out), found) in by_reason {
+            let count = found.len();
+            let found = found.join(", ");
+            remarks.push(match takes_part {
+                true => Remark::warning(format!("shares of {found} mean little ({why})"))
+                    .with_hint(way_out),
+                false => Remark::note(format!(
+                    "{count} of {} no part, so that others stand in for them: {found} ({why})",
+                    documents::counted_as(all, "pigment takes", "pigments take")
+                ))
+                .with_hint(format!(
+                    "{way_out}; if you name one with [palette], it takes part with an assumed S"
+                )),
+            });
+        }
+    }
+    remarks
 }
 
 /// How the best set of a search compares with the true pigments of a pixel.

@@ -112,7 +112,7 @@ fn scale_factor_percent_and_gains_give_reflectance() {
     let path = write_envi(folder.path(), "percent", &header("bip", 4, ""), &percent);
     let cube = Cube::open(&path).unwrap();
     check(&cube, 1.0 / 200.0, "percent");
-    let remark = &cube.remarks()[0];
+    let remark = &cube.remarks()[0].text;
     assert!(remark.ends_with("are taken for percent"), "{remark}");
 
     let more = "data reflectance gain values = {1e-4, 1e-4, 1e-4, 2e-4}\n\
@@ -136,7 +136,8 @@ fn bad_bands_are_left_out_and_told() {
     let path = fractions(folder.path(), "bbl = {1, 0, 1, 1}\n");
     let cube = Cube::open(&path).unwrap();
     assert_eq!(cube.wavelengths_nm(), [400.0, 600.5, 700.0]);
-    assert_eq!(cube.remarks(), ["1 of 4 bands are marked as bad and left out (bbl)"]);
+    assert_eq!(cube.remarks().len(), 1);
+    assert_eq!(cube.remarks()[0].text, "1 of 4 bands are marked as bad and left out (bbl)");
     let found = cube.read(3..4, 4..5).unwrap().values;
     assert_eq!(found, [0, 2, 3].map(|band| f32::from(value(3, 4, band)) / 200.0));
 }
@@ -409,7 +410,7 @@ fn faults_of_the_header_name_line_and_key() {
         (
             "header offset",
             "file type = ENVI Spectral Library\nheader offset",
-            "`file type` is `envi spectral library`, no cube",
+            "`file type` is `envi spectral library`, which is not a scan",
         ),
         (
             "header offset",
@@ -437,13 +438,61 @@ fn faults_of_the_header_name_line_and_key() {
         let (found, _) = refused_header(from, to);
         assert!(found.contains(message), "{to}: {found}");
     }
-    // Numbers of one byte need no order.
+}
+
+#[test]
+fn a_header_without_a_byte_order_means_little_endian() {
     let folder = tempfile::tempdir().unwrap();
-    let text = header("bil", 12, "").replace("byte order = 0\n", "");
-    let path = write_envi(folder.path(), "scan", &text, &[0; 2 * LINES * SAMPLES * BANDS]);
-    let (found, hint) = refused(&path, &CubeOptions::default());
-    assert!(found.ends_with("`byte order` is missing"), "{found}");
-    assert!(hint.contains("byte order = 0"), "{hint}");
+    let more = "reflectance scale factor = 10000\n";
+    for (data_type, is_told) in [(12, true), (1, false)] {
+        let text = header("bil", data_type, if is_told { more } else { "" });
+        let data: Vec<u8> = in_order("bil")
+            .into_iter()
+            .flat_map(|value| match is_told {
+                true => (u16::from(value) * 50).to_le_bytes().to_vec(),
+                false => vec![value],
+            })
+            .collect();
+        let text = text.replace("byte order = 0\n", "");
+        let path = write_envi(folder.path(), "scan", &text, &data);
+        let options = if is_told { CubeOptions::default() } else { by_200() };
+        let cube = Cube::open_with(&path, &options).unwrap();
+        check(&cube, 1.0 / 200.0, "little endian");
+        let remarks: Vec<String> = cube.remarks().iter().map(ToString::to_string).collect();
+        let found = remarks.iter().any(|remark| remark.contains("names no byte order: 0"));
+        assert_eq!(found, is_told, "{remarks:?}");
+    }
+}
+
+#[test]
+fn the_white_of_an_archive_is_guessed_where_the_file_says_reflectance() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, more, factor, white) in [
+        ("scan", "data units = Reflectance\n", 40_u16, Some(10_000.0)),
+        ("scan", "z plot titles = {Wavelength, Reflectance}\n", 250, Some(65_535.0)),
+        ("scan", "description = {Reflectance * 4096}\n", 16, Some(4096.0)),
+        ("wall_reflectance", "", 40, Some(10_000.0)),
+        ("scan", "", 40, None),
+        ("scan", "data units = DN\n", 40, None),
+    ] {
+        let data: Vec<u8> =
+            numbers().flat_map(|value| (u16::from(value) * factor).to_le_bytes()).collect();
+        let path = write_envi(folder.path(), name, &header("bip", 12, more), &data);
+        match (white, Cube::open(&path)) {
+            (Some(white), Ok(cube)) => {
+                let scale = f64::from(factor) / white;
+                check(&cube, scale as f32, more);
+                let remark = cube.remarks()[0].to_string();
+                let start = format!("warning: a white is taken to read {white}: ");
+                assert!(remark.starts_with(&start) && remark.contains("scale"), "{remark}");
+            }
+            (None, Err(error)) => {
+                assert!(error.to_string().contains("are not reflectances"), "{error}");
+            }
+            (_, found) => panic!("{name} {more}: {found:?}"),
+        }
+        std::fs::remove_file(&path).unwrap();
+    }
 }
 
 #[test]

@@ -9,9 +9,9 @@ use exr::prelude::{
 };
 use maps::cube::{Cube, CubeOptions, CubeScale};
 use tiff::encoder::{self, TiffEncoder, colortype};
-use tiff::tags::ExtraSamples;
+use tiff::tags::{ExtraSamples, Tag};
 
-use crate::written::{BANDS, LINES, SAMPLES, check, refused, value};
+use crate::written::{BANDS, LINES, SAMPLES, check, header, in_order, refused, value, write_envi};
 
 const LIST: &str = "400\n500\n600.5\n700\n";
 
@@ -67,7 +67,7 @@ fn a_folder_of_pictures_is_read_in_the_order_of_numbers() {
     check(&cube, 1.0 / 200.0, "pictures");
     let remark =
         "4 pictures from band 8.png (400 nm) to band 11.tiff (700 nm), in the order of their names";
-    assert_eq!(cube.remarks(), [remark]);
+    assert_eq!(cube.remarks().iter().map(|told| told.text.as_str()).collect::<Vec<_>>(), [remark]);
     let (found, hint) = refused(folder.path(), &CubeOptions::default());
     assert!(found.contains("the values are not reflectances"), "{found}: {hint}");
     // The list may lie elsewhere.
@@ -133,7 +133,9 @@ fn pages_of_a_tiff_file_are_bands() {
     write_tiff(&path, &pages);
     let (found, hint) = refused(&path, &by_20000());
     assert!(
-        found.ends_with("has 4 pages, but no list of their wavelengths is beside it"),
+        found.contains(
+            "has 4 pages, but no list of their wavelengths is beside it, nor do metadata of GDAL"
+        ),
         "{found}"
     );
     assert!(hint.contains("scan.txt"), "{hint}");
@@ -142,6 +144,89 @@ fn pages_of_a_tiff_file_are_bands() {
     std::fs::write(folder.path().join("scan.txt"), "400\n500\n").unwrap();
     let (found, _) = refused(&path, &by_20000());
     assert!(found.ends_with("scan.txt: has 2 wavelengths, the stack 4 pages"), "{found}");
+}
+
+/// The XML of GDAL with the wavelengths of the test scan, in its two forms.
+fn gdal(is_beside: bool) -> String {
+    let bands = [400.0, 500.0, 600.5, 700.0].iter().enumerate().map(|(band, nm)| match is_beside {
+        true => format!(
+            "<PAMRasterBand band=\"{}\"><Metadata><MDI key=\"wavelength\">{nm}</MDI>\
+             <MDI key=\"wavelength_units\">Nanometers</MDI></Metadata></PAMRasterBand>",
+            band + 1
+        ),
+        false => format!(
+            "<Item name=\"wavelength\" sample=\"{band}\">{nm}</Item>\
+             <Item name=\"wavelength_units\" sample=\"{band}\">Nanometers</Item>\
+             <Item name=\"SCALE\" sample=\"{band}\" role=\"scale\">0.00005</Item>"
+        ),
+    });
+    let root = if is_beside { "PAMDataset" } else { "GDALMetadata" };
+    format!("<{root}>{}</{root}>", bands.collect::<String>())
+}
+
+#[test]
+fn metadata_of_gdal_name_wavelengths_and_scales() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scan.tif");
+    let mut encoder = TiffEncoder::new(File::create(&path).unwrap()).unwrap();
+    let mut image = encoder.new_image::<colortype::Gray16>(SAMPLES as u32, LINES as u32).unwrap();
+    image.extra_samples(&[ExtraSamples::Unspecified; BANDS - 1]).unwrap();
+    image.encoder().write_tag(Tag::Unknown(42112), gdal(false).as_str()).unwrap();
+    image.encoder().write_tag(Tag::GdalNodata, "-9999").unwrap();
+    let planes: Vec<_> = (0..BANDS).map(plane).collect();
+    let pixels = (0..LINES * SAMPLES).flat_map(|pixel| planes.iter().map(move |band| band[pixel]));
+    image.write_data(&pixels.collect::<Vec<u16>>()).unwrap();
+    // The tag states the scale too.
+    check(&Cube::open(&path).unwrap(), 1.0 / 200.0, "tag");
+
+    let pages = folder.path().join("pages.tif");
+    write_tiff(&pages, &planes);
+    std::fs::write(folder.path().join("pages.tif.aux.xml"), gdal(true)).unwrap();
+    check(&Cube::open_with(&pages, &by_20000()).unwrap(), 1.0 / 200.0, "beside a TIFF file");
+
+    let text = header("bil", 12, "").replace("wavelength", "lost");
+    let counts =
+        in_order("bil").into_iter().flat_map(|value| (u16::from(value) * 100).to_le_bytes());
+    let scan = write_envi(folder.path(), "scan", &text, &counts.collect::<Vec<u8>>());
+    let (found, _) = refused(&scan, &by_20000());
+    assert!(found.ends_with("names no wavelengths of its 4 bands"), "{found}");
+    std::fs::write(folder.path().join("scan.raw.aux.xml"), gdal(true)).unwrap();
+    let cube = Cube::open_with(&scan, &by_20000()).unwrap();
+    check(&cube, 1.0 / 200.0, "beside data of ENVI");
+    let remark = &cube.remarks()[0].text;
+    assert!(
+        remark.starts_with("wavelengths are read from ") && remark.ends_with("scan.raw.aux.xml")
+    );
+    let part = gdal(true).replacen("wavelength", "other", 1);
+    std::fs::write(folder.path().join("scan.raw.aux.xml"), part).unwrap();
+    let (found, _) = refused(&scan, &by_20000());
+    assert!(found.ends_with("names no wavelengths of its 4 bands"), "{found}");
+}
+
+#[test]
+fn spectra_of_points_are_refused_with_the_verb_that_reads_them() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, bytes) in [
+        ("spots.csv", &b"sample,400,410,420\nred,0.1,0.1,0.2\n"[..]),
+        ("spot.txt", b"400\t0.1\n410\t0.2\n"),
+        ("spots.xlsx", b"PK\x03\x04\x14\0\0\0"),
+        ("leaf.asd", b"as7 \0\0\0"),
+    ] {
+        let path = folder.path().join(name);
+        let mut bytes = bytes.to_vec();
+        if name.ends_with("asd") {
+            bytes = [b"ASD", &[0_u8; 481][..]].concat();
+        }
+        std::fs::write(&path, bytes).unwrap();
+        let (found, hint) = refused(&path, &CubeOptions::default());
+        assert!(found.ends_with("holds spectra of points, not a scan"), "{name}: {found}");
+        assert!(hint.contains("impasto identify"), "{hint}");
+    }
+    let noise: Vec<u8> = (0..200).collect();
+    let path = folder.path().join("scan.dat");
+    std::fs::write(&path, noise).unwrap();
+    let (found, hint) = refused(&path, &CubeOptions::default());
+    assert!(found.contains("not a cube that can be read") && hint.contains("scan.hdr"), "{found}");
 }
 
 fn write_exr(path: &Path, names: &[(&str, Option<usize>)], compression: Compression) {
@@ -179,6 +264,14 @@ fn spectral_exr_files_are_read() {
         write_exr(&path, &CHANNELS, compression);
         check(&Cube::open(&path).unwrap(), 1.0 / 200.0, &format!("{compression:?}"));
     }
+    let glowing = [("T.400,000000nm.500,000000nm", None), ("T.400,000000nm.600,500000nm", None)];
+    write_exr(&path, &[&CHANNELS[..], &glowing].concat(), Compression::ZIP16);
+    let cube = Cube::open(&path).unwrap();
+    check(&cube, 1.0 / 200.0, "with fluorescence");
+    let remark = cube.remarks()[0].to_string();
+    let start =
+        "warning: fluorescence is left out (2 channels, such as T.400,000000nm.500,000000nm)";
+    assert!(remark.starts_with(start), "{remark}");
     write_exr(&path, &CHANNELS[..3], Compression::ZIP16);
     let (found, hint) = refused(&path, &CubeOptions::default());
     assert!(found.contains("without channels of reflectance"), "{found}: {hint}");

@@ -87,7 +87,7 @@ fn counts_of_a_folder_become_reflectance_by_column_and_band() {
     let cube = Cube::open(folder.path()).unwrap();
     check_near(&cube);
     assert_eq!(cube.values(), CubeValues::ByBands);
-    let remark = &cube.remarks()[0];
+    let remark = &cube.remarks()[0].text;
     assert!(remark.contains("042.hdr") && remark.contains("white and dark"), "{remark}");
     // The swing of 10 counts over four lines, in reflectance of the mean light of all columns.
     let sd = (400.0_f64 / 3.0).sqrt();
@@ -128,7 +128,7 @@ fn the_cameras_own_reflectance_comes_first() {
     write_envi(&results, "REFLECTANCE_042", &header("bil", 4, ""), &data);
     let cube = Cube::open(folder.path()).unwrap();
     check(&cube, 1.0 / 400.0, "results");
-    assert!(cube.remarks()[0].starts_with("the camera's reflectance is read"));
+    assert!(cube.remarks()[0].text.starts_with("the camera's reflectance is read"));
 }
 
 #[test]
@@ -244,8 +244,10 @@ fn columns_without_light_are_not_mapped_and_told() {
     write_envi(&capture, "DARKREF_a", &one_line, &counts(1, &|_| 100));
     write_envi(&capture, "a", &two_lines, &counts(2, &|_| 600));
     let cube = Cube::open(folder.path()).unwrap();
-    let told =
-        cube.remarks().iter().any(|remark| remark.starts_with("1 of 40 columns have no light"));
+    let told = cube
+        .remarks()
+        .iter()
+        .any(|remark| remark.text.starts_with("1 of 40 columns have no light"));
     assert!(told, "{:?}", cube.remarks());
     let block = cube.read_rows(0..2).unwrap();
     for (at, (values, mask)) in block.iter().enumerate() {

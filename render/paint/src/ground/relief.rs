@@ -4,7 +4,7 @@ use std::io::Cursor;
 
 use graphics::field::Field;
 use graphics::noise::{Hills, random};
-use graphics::picture_formats::{CUT_OFF, is_cut_off_jpeg};
+use graphics::picture_formats::fault_of_jpeg;
 use image::{ImageReader, Limits};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -475,8 +475,8 @@ impl PictureRelief {
         let rejected = |reason: String| GroundError::Picture { path: self.path.clone(), reason };
         let bytes =
             documents::file::disk::read(&self.path).map_err(|error| rejected(error.to_string()))?;
-        if is_cut_off_jpeg(&bytes) {
-            return Err(rejected(CUT_OFF.to_owned()));
+        if let Some(fault) = fault_of_jpeg(&bytes) {
+            return Err(rejected(fault));
         }
         let mut reader = ImageReader::new(Cursor::new(bytes))
             .with_guessed_format()

@@ -6,7 +6,6 @@ mod page;
 
 use std::path::{Path, PathBuf};
 
-use calibrate::remark::Remark;
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Arg, Args, ValueHint};
 use documents::{Task, text::read_text};
@@ -14,8 +13,7 @@ use maps::cube::{CubeOptions, CubeScale};
 use maps::pictures::Overview;
 use maps::truth::{CHI2_RISEN, Comparison, Truth, compare};
 use maps::{
-    Book, Cube, FoundColumn, MapRequest, MapRequestError, ModelError, Spot, StoreMode, StoredMaps,
-    SurveyedScan,
+    Book, Cube, FoundColumn, MapRequest, MapRequestError, Spot, StoreMode, StoredMaps, SurveyedScan,
 };
 use serde_json::{Value, json};
 
@@ -81,17 +79,7 @@ pub(crate) struct Map {
 impl CommandLine for MapRequest {
     fn adapted(key: &str, option: Arg) -> Arg {
         match key {
-            "at_most" => option.value_name("N").hide_default_value(true),
-            "palette" => option.value_name("NAME"),
-            "groups" => option.long("group").value_name("NAME=PIGMENT,.."),
-            "noise" => option.value_name("SD").allow_hyphen_values(false),
-            "residuals" => path(option, "FILE"),
-            "model_error" => {
-                let option = option.value_name("0.05").allow_hyphen_values(false);
-                option.conflicts_with("residuals")
-            }
             "ground" => option.value_name("ROWS,COLUMNS|FILE"),
-            "penalty" => option.value_name("N").hide_default_value(true).allow_hyphen_values(false),
             // After --pictures and after --survey.
             "region" => {
                 option.value_name("ROWS,COLUMNS").help_heading(None::<&str>).display_order(2)
@@ -100,8 +88,25 @@ impl CommandLine for MapRequest {
                 let option = option.long("spot").value_name("ROWS,COLUMNS");
                 option.help_heading(None::<&str>).display_order(4)
             }
-            _ => option,
+            _ => of_pigments(key, option),
         }
+    }
+}
+
+/// Adds names of values to the options on pigments and errors, which `map` and `identify` share.
+pub(super) fn of_pigments(key: &str, option: Arg) -> Arg {
+    match key {
+        "at_most" => option.value_name("N").hide_default_value(true),
+        "palette" => option.value_name("NAME"),
+        "groups" => option.long("group").value_name("NAME=PIGMENT,.."),
+        "noise" => option.value_name("SD").allow_hyphen_values(false),
+        "residuals" => path(option, "FILE"),
+        "model_error" => {
+            let option = option.value_name("0.05").allow_hyphen_values(false);
+            option.conflicts_with("residuals")
+        }
+        "penalty" => option.value_name("N").hide_default_value(true).allow_hyphen_values(false),
+        _ => option,
     }
 }
 
@@ -126,15 +131,14 @@ impl Map {
         }
         let library = chosen(self.library.as_deref(), console)?.library;
         let cube = self.reading.cube(&self.scan)?;
-        for remark in cube.remarks() {
-            console.remark(remark)?;
-        }
+        console.remarks(cube.remarks())?;
         let known = self.survey.as_ref().filter(|path| path.exists());
         let book = known.map(|path| book(path)).transpose()?;
         let waiting = Waiting::new("surveying", console.shows_progress());
         let scan = request.survey(cube, &library, book, &Task::default()).map_err(failure)?;
         drop(waiting);
-        console.remarks(remark(&request, &scan).as_slice())?;
+        console.remarks(scan.mapper().remarks())?;
+        console.remarks(&scan.mapper().assumed_error(request.model_error.is_some()))?;
         if let (Some(path), None) = (&self.survey, known) {
             documents::file::write_whole(path, scan.book().to_json()?.as_bytes())?;
             console.wrote(path)?;
@@ -199,7 +203,7 @@ fn book(path: &Path) -> Result<Book> {
 }
 
 /// The error of a request in the words of the command line.
-fn failure(error: MapRequestError) -> Failure {
+pub(super) fn failure(error: MapRequestError) -> Failure {
     match error {
         MapRequestError::GroundFile(reason) => {
             Failure::from(reason).within("--ground takes a region or a file")
@@ -208,27 +212,15 @@ fn failure(error: MapRequestError) -> Failure {
     }
 }
 
-/// A remark, if the errors of the library are assumed and not measured.
-fn remark(request: &MapRequest, scan: &SurveyedScan) -> Option<Remark> {
-    let assumed = request.model_error.is_none()
-        && matches!(scan.mapper().model_error(), ModelError::Stated(_));
-    assumed.then(|| {
-        let words = scan.mapper().model_error().words();
-        Remark::note(format!("this library is taken to have {words}")).with_hint(
-            "`impasto validate READINGS [residuals=FILE.json]` measures its errors, and [residuals=FILE.json] gives them to the map",
-        )
-    })
-}
-
 /// How the scan is read.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Reading the scan")]
 struct ScanOptions {
     /// Values are in percent [default: by the file]
-    #[arg(long, conflicts_with = "fraction")]
+    #[arg(long, conflicts_with_all = ["fraction", "scale"])]
     percent: bool,
     /// Values are fractions, a white near 1
-    #[arg(long)]
+    #[arg(long, conflicts_with = "scale")]
     fraction: bool,
     #[command(flatten)]
     options: RequestOptions<CubeOptions>,
@@ -243,6 +235,7 @@ impl CommandLine for CubeOptions {
                 let option = option.value_name("0.99").hide_default_value(true);
                 option.allow_hyphen_values(false).requires("white_reading")
             }
+            "scale" => option.value_name("10000").hide_default_value(true),
             "full_scale" => option.value_name("COUNT").allow_hyphen_values(false),
             "wavelengths" => path(option, "FILE"),
             "variable" => option.value_name("NAME"),
@@ -251,7 +244,7 @@ impl CommandLine for CubeOptions {
     }
 
     fn is_option(key: &str) -> bool {
-        !matches!(key, "scale" | "scratch")
+        key != "scratch"
     }
 }
 
@@ -268,7 +261,7 @@ impl ScanOptions {
         let scale = match (self.percent, self.fraction) {
             (true, _) => CubeScale::Percent,
             (_, true) => CubeScale::Fraction,
-            _ => CubeScale::ByFile,
+            _ => options.scale,
         };
         Ok(Cube::open_with(path, &CubeOptions { scale, ..options })?)
     }

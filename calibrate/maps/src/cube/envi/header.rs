@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::cube::error::CubeError;
+use crate::cube::error::{CubeError, shortened};
 use crate::cube::raw_file::{Interleave, Layout};
 use crate::numbers::{ByteOrder, NumberType};
 
@@ -28,6 +28,8 @@ pub struct EnviHeader {
     pub scale_factor: Option<f64>,
     /// Factor and summand that turn the values of each band into reflectance.
     pub gains: Option<Vec<(f64, f64)>>,
+    /// Texts on the values and the scan, each with the name of its key.
+    pub(crate) told: Vec<(String, String)>,
     /// Whether the header says that the values are a radiance.
     pub is_radiance: bool,
     /// Integration time, in the unit of the camera.
@@ -75,7 +77,7 @@ impl EnviHeader {
                 bands,
                 offset: fields.whole("header offset")?.unwrap_or(0),
                 number_type,
-                byte_order: byte_order(&fields, number_type)?,
+                byte_order: byte_order(&fields, number_type, &mut remarks)?,
                 interleave: interleave(&fields, bands)?,
             },
             wavelengths_nm: wavelengths.map(|found| found.nm),
@@ -84,6 +86,7 @@ impl EnviHeader {
             ignore: fields.number("data ignore value")?,
             scale_factor: scale_factor(&fields)?,
             gains: gains(&fields, bands)?,
+            told: told(&fields)?,
             is_radiance: says(&fields, "radiance")?,
             integration_time: fields.number("tint").ok().flatten(),
             remarks,
@@ -94,9 +97,16 @@ impl EnviHeader {
 /// Refuses spectral libraries, classifications, compressed data and data with gaps.
 fn refuse_other_kinds(fields: &Fields) -> Result<(), CubeError> {
     let kind = fields.text("file type")?.unwrap_or_default().to_lowercase();
-    if kind.contains("library") || kind.contains("classification") {
-        let problem = format!("is `{}`, no cube", shortened(&kind));
-        return Err(fields.fault("file type", problem, "name a scan of type ENVI Standard"));
+    let kinds = [
+        (
+            "library",
+            "spectra of points: `impasto identify` names their pigments, `impasto color` their colours",
+        ),
+        ("classification", "name a scan of type ENVI Standard"),
+    ];
+    if let Some((_, way_out)) = kinds.iter().find(|(word, _)| kind.contains(word)) {
+        let problem = format!("is `{}`, which is not a scan", shortened(&kind));
+        return Err(fields.fault("file type", problem, *way_out));
     }
     if fields.whole("file compression")?.unwrap_or(0) != 0 {
         let way_out = "save the scan without compression";
@@ -134,6 +144,15 @@ fn says(fields: &Fields, word: &str) -> Result<bool, CubeError> {
     Ok(false)
 }
 
+/// Texts that may name the quantity of the values, each with its key.
+fn told(fields: &Fields) -> Result<Vec<(String, String)>, CubeError> {
+    let mut told = Vec::new();
+    for key in QUANTITY_KEYS.into_iter().chain(["description"]) {
+        told.extend(fields.text(key)?.map(|text| (key.to_owned(), text.to_owned())));
+    }
+    Ok(told)
+}
+
 fn size(fields: &Fields, key: &str) -> Result<usize, CubeError> {
     let number = fields.required(key)?;
     usize::try_from(number).ok().filter(|size| *size > 0).ok_or_else(|| {
@@ -163,14 +182,23 @@ fn number_type(fields: &Fields) -> Result<NumberType, CubeError> {
     })
 }
 
-fn byte_order(fields: &Fields, number_type: NumberType) -> Result<ByteOrder, CubeError> {
+/// The order of bytes. A header without one means 0, little endian, as for ENVI itself.
+fn byte_order(
+    fields: &Fields,
+    number_type: NumberType,
+    remarks: &mut Vec<String>,
+) -> Result<ByteOrder, CubeError> {
     match fields.whole("byte order")? {
         Some(0) => Ok(ByteOrder::Little),
         Some(1) => Ok(ByteOrder::Big),
-        None if number_type.bytes() == 1 => Ok(ByteOrder::Little),
         None => {
-            let way_out = "add `byte order = 0` (little endian) or `byte order = 1`";
-            Err(fields.fault("byte order", "is missing", way_out))
+            if number_type.bytes() > 1 {
+                remarks.push(
+                    "the header names no byte order: 0 (little endian) is taken, as ENVI does"
+                        .to_owned(),
+                );
+            }
+            Ok(ByteOrder::Little)
         }
         Some(other) => {
             let problem = format!("must be 0 or 1, found `{other}`");
@@ -422,14 +450,5 @@ impl CubeError {
             }
             other => other,
         }
-    }
-}
-
-/// Shortens a value of a file for messages.
-pub(crate) fn shortened(text: &str) -> String {
-    const LONGEST: usize = 40;
-    match text.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{}..", &text[..end]),
-        None => text.to_owned(),
     }
 }

@@ -11,6 +11,8 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+use pigment::Remark;
+
 use crate::cube::error::CubeError;
 use crate::cube::raw_file::{PositionalFile, RawFile};
 use crate::cube::window::{Opened, Values};
@@ -163,8 +165,9 @@ pub(crate) fn opened(path: &Path, header: EnviHeader, file: PositionalFile) -> O
         good: header.good,
         ignore: header.ignore,
         values,
+        told: header.told,
         integration_time: header.integration_time,
-        remarks: header.remarks,
+        remarks: header.remarks.into_iter().map(Remark::note).collect(),
         source: Box::new(RawFile::new(file, layout)),
     }
 }

@@ -8,7 +8,7 @@ use documents::hint::Explain;
 use image::{ImageReader, Limits};
 
 use crate::mesh::model::{Material, Mesh, MeshFault, Texture, Triangle};
-use crate::picture_formats::{CUT_OFF, NAMES, is_cut_off_jpeg};
+use crate::picture_formats::{NAMES, fault_of_jpeg};
 
 #[derive(Debug, Default)]
 pub(super) struct Part {
@@ -58,8 +58,8 @@ const LONGEST: u32 = 16_384;
 impl Texture {
     /// Decodes a PNG, JPEG, TIFF or WebP image. If it cannot, the error is the decoder's reason.
     pub(super) fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
-        if is_cut_off_jpeg(bytes) {
-            return Err(CUT_OFF.to_owned());
+        if let Some(fault) = fault_of_jpeg(bytes) {
+            return Err(fault);
         }
         let mut reader = ImageReader::new(Cursor::new(bytes))
             .with_guessed_format()

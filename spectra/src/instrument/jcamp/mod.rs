@@ -5,9 +5,12 @@
 //! readable form", Applied Spectroscopy 42 (1988) 151. We read XYDATA= (X++(Y..Y)) in every packed
 //! form, XYPOINTS= (XY..XY), and the pages of NTUPLES.
 
+mod data;
+
+use data::{Field, Scaling, StatedStep, pages, points, runs};
+
 use super::columns::Axis;
 use super::decode::{Decimal, lines, required_number};
-use super::jcamp_data::{Field, Scaling, StatedStep, pages, points, runs};
 use super::measured::{InstrumentError, MeasuredSpectrum, Role, Unit, stem};
 use super::points::{Duplicates, Ordered, Point, ordered};
 use super::quantity::MeasuredQuantity;

@@ -10,9 +10,9 @@
 //! `##FACTOR=`, `##FIRST=`, `##LAST=`, `##VAR_DIM=` and `##UNITS=` list one value for each variable, in the
 //! same order. Each `##PAGE=` has a `##DATA TABLE=` of two variables.
 
-use super::decode::{Decimal, number, required_number};
-use super::measured::InstrumentError;
-use super::points::Point;
+use super::super::decode::{Decimal, number, required_number};
+use super::super::measured::InstrumentError;
+use super::super::points::Point;
 
 /// Maximum number of points. No spectrometer writes so many, and this bounds the memory that a DUP
 /// count can request.
