@@ -217,7 +217,6 @@ impl Header {
                 })
                 .map(|(_, (value, &nm_of))| Point {
                     line: nm.line,
-                    point_lines: Vec::new(),
                     nm: nm_of,
                     value: value / factor.unwrap_or(1.0),
                 })
