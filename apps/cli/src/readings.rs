@@ -398,7 +398,7 @@ fn light_and_observer(text: &str) -> Result<Viewing> {
         Some((light, observer))
     });
     let (light, observer) = pair.unwrap_or((text, Observer::default()));
-    Ok(Viewing { illuminant: light_from_text(light)?, observer })
+    Ok(Viewing { illuminant: light_from_text_with(light, &FileOptions::default())?, observer })
 }
 
 /// Parses a target: one colour as `#rrggbb` or `L,a,b`, or the named colours or spectra of `FILE` or

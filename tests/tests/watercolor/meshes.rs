@@ -275,7 +275,7 @@ fn obj_files() {
 fn materials_and_textures_of_obj_files() {
     let obj = format!("mtllib a.mtl\n{POSITIONS}usemtl red\nf 1 2 3\n").into_bytes();
     let error = opened(&[("a.obj", &obj)]).unwrap_err();
-    assert!(matches!(&error, MeshError::Unreadable(name, _) if name.ends_with("a.mtl")));
+    assert!(matches!(&error, MeshError::Unreadable(file) if file.to_string().contains("a.mtl")));
     for (mtl, wanted) in [
         ("newmtl red\nKd 1 0\n", "a.mtl: line 2: no colour of 3 numbers: `Kd 1 0`"),
         ("newmtl red\nKd spectral x.rfl\n", "a.mtl: line 2: not a finite number: `spectral`"),

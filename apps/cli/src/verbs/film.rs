@@ -60,7 +60,7 @@ impl CommandLine for FilmRequest {
 
 impl Film {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
-        let viewing = self.viewing.viewing()?;
+        let viewing = self.viewing.viewing(console)?;
         let mut options = self.request.clone();
         // Without a surface there is no specular reflection to exclude.
         if options.is("surface", "none") {

@@ -12,7 +12,7 @@ use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 
 use super::error::CubeError;
-use super::wavelengths::Wavelengths;
+use spectra::WavelengthList;
 use super::window::Values;
 
 /// One entry: its name in lower case, the band from 0 or none for the whole file, and its text.
@@ -147,17 +147,17 @@ impl GdalMetadata {
 
     /// Wavelengths of `bands` bands, or `None` if the metadata name none. The error says what is wrong with
     /// them, but not their place.
-    pub(crate) fn wavelengths(&self, bands: usize) -> Result<Option<Wavelengths>, String> {
+    pub(crate) fn wavelengths(&self, bands: usize) -> Result<Option<WavelengthList>, String> {
         let unit_of = |band| {
             let names = ["wavelength_units", "wavelength_unit", "wavelength units"];
             self.of_band(&names, band).or_else(|| self.of_file("wavelength_units"))
         };
         if let Some(micrometres) = self.numbers(&["central_wavelength_um"], bands) {
-            return Wavelengths::of(&micrometres, Some("um")).map(Some);
+            return WavelengthList::of(&micrometres, Some("um")).map(Some);
         }
         if let Some(values) = self.numbers(&["wavelength", "wavelengths", "wavelength_nm"], bands) {
             let is_nm = self.of_band(&["wavelength_nm"], 0).is_some();
-            return Wavelengths::of(&values, if is_nm { Some("nm") } else { unit_of(0) }).map(Some);
+            return WavelengthList::of(&values, if is_nm { Some("nm") } else { unit_of(0) }).map(Some);
         }
         // A list in braces, as in the header of ENVI.
         if let Some(list) = self.of_file("wavelength") {
@@ -165,7 +165,7 @@ impl GdalMetadata {
             let values: Option<Vec<f64>> =
                 words.filter(|word| !word.is_empty()).map(|word| word.parse().ok()).collect();
             if let Some(values) = values.filter(|values| values.len() == bands) {
-                return Wavelengths::of(&values, unit_of(0)).map(Some);
+                return WavelengthList::of(&values, unit_of(0)).map(Some);
             }
         }
         let texts: Vec<Option<(f64, &str)>> = (0..bands)
@@ -182,7 +182,7 @@ impl GdalMetadata {
             _ => {
                 let unit = texts.first().copied().flatten().map(|(_, unit)| unit);
                 let values: Vec<f64> = texts.iter().flatten().map(|(value, _)| *value).collect();
-                Wavelengths::of(&values, unit).map(Some)
+                WavelengthList::of(&values, unit).map(Some)
             }
         }
     }
