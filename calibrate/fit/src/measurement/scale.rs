@@ -149,7 +149,7 @@ pub(super) struct DarkReadings {
     first: Option<(u64, String, f64)>,
 }
 
-/// If at least one reading in so many is dark, the file holds two groups, and not a black patch or two.
+/// If more than one reading in so many is dark, the file holds two groups, and not a black patch or two.
 const ONE_DARK_IN: usize = 4;
 
 impl DarkReadings {
@@ -165,7 +165,7 @@ impl DarkReadings {
     /// A remark on the dark readings, if there are any. Where they may be fractions, this fails.
     pub(super) fn checked(self, file: &str) -> Result<Option<String>, MeasurementError> {
         let Some((row, sample, largest)) = self.first else { return Ok(None) };
-        if ONE_DARK_IN * self.count >= self.all {
+        if ONE_DARK_IN * self.count > self.all {
             return Err(MeasurementError::MixedScale { file: file.to_owned(), row, largest });
         }
         let others = match self.count - 1 {
