@@ -247,7 +247,7 @@ pub fn condition(heading: &str) -> Option<ConditionKind> {
     let first = words.next()?;
     let compact = plain(heading);
     let known = |word: &String| CONDITIONS.iter().position(|known| known == word);
-    let last = words.last();
+    let last = words.next_back();
     let found = [Some(compact), Some(first), last].into_iter().flatten().find_map(|w| known(&w));
     found.map(|at| match CONDITIONS[at] {
         "geometry" | "geometries" | "geometrie" | "geometria" | "angle" | "angles" | "winkel"

@@ -152,7 +152,7 @@ pub(super) struct DarkReadings {
     first: Option<(u64, String, f64)>,
 }
 
-/// If several readings, and at least one in so many, are dark, the file holds two groups, and not a
+/// If several readings, and more than one in so many, are dark, the file holds two groups, and not a
 /// black patch or two.
 const ONE_DARK_IN: usize = 4;
 
@@ -170,7 +170,7 @@ impl DarkReadings {
     pub(super) fn checked(self, file: &str) -> Result<Option<String>, MeasurementError> {
         let Some((row, sample, largest)) = self.first else { return Ok(None) };
         let is_a_group = self.count > 1 || self.all < 3;
-        if is_a_group && ONE_DARK_IN * self.count >= self.all {
+        if is_a_group && ONE_DARK_IN * self.count > self.all {
             return Err(MeasurementError::MixedScale { file: file.to_owned(), row, largest });
         }
         let others = match self.count - 1 {
