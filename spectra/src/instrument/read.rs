@@ -24,7 +24,7 @@ pub struct InstrumentFile {
     pub spectra: Vec<MeasuredSpectrum>,
 }
 
-/// What you know about files that do not say it themselves, or say it wrongly. The defaults read every file
+/// Facts that you know about files and that they do not say, or say wrongly. The defaults read every file
 /// as it describes itself.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct FileOptions {

@@ -184,7 +184,7 @@ fn columns(file: &str, lines: &[Line<'_>], count: usize) -> Result<Vec<Named>, I
     }
     let list: Vec<(usize, f64)> =
         rows.iter().flat_map(|line| line.values(line.cells.len())).collect();
-    if list.is_empty() || list.len() % count != 0 {
+    if list.is_empty() || !list.len().is_multiple_of(count) {
         let last = lines.last().map_or(1, |line| line.number);
         return Err(wrong_count(file, last, count, list.len()));
     }
@@ -264,7 +264,7 @@ mod tests {
             assert_eq!(found(text), [red.clone(), blue.clone()], "{text}");
         }
         // A title over one column, as the USGS writes it.
-        assert_eq!(found(" Red Ochre\n 0.1\n 0.2\n 0.6\n"), [red.clone()]);
+        assert_eq!(found(" Red Ochre\n 0.1\n 0.2\n 0.6\n"), std::slice::from_ref(&red));
         assert_eq!(found("0.1 0.2\n0.6\n"), [("paints".to_owned(), red.1.clone())]);
         let numbered = [("1".to_owned(), red.1.clone()), ("2".to_owned(), blue.1.clone())];
         assert_eq!(found("1 0.1 0.2 0.6\n2 0.5 0.4 0.1\n"), numbered);

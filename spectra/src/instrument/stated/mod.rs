@@ -1,4 +1,4 @@
-//! What you know about a file that does not say it, or says it wrongly: the quantity of its values and their
+//! Facts that you know about a file and that it does not say, or says wrongly: the quantity of its values and their
 //! wavelengths. Also what a file states of the geometry of its instrument.
 
 pub(super) mod bare_values;
@@ -8,6 +8,9 @@ pub use geometry::StatedGeometry;
 
 use super::measured::{MeasuredSpectrum, Role, Unit};
 use super::quantity::MeasuredQuantity;
+
+/// Turns a value into a reflectance as a fraction.
+type Conversion = fn(f64) -> f64;
 
 /// The quantity of the values of a file, as you state it against its headings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -70,7 +73,7 @@ impl StatedValues {
     /// K/S is turned round by R = 1 + K/S - sqrt((K/S)^2 + 2 K/S) (Kubelka and Munk 1931). We take a K/S
     /// below 0 for noise of 0.
     #[must_use]
-    pub fn conversion(self) -> Option<(fn(f64) -> f64, &'static str)> {
+    pub fn conversion(self) -> Option<(Conversion, &'static str)> {
         match self {
             Self::Absorbance => Some((
                 |absorbance| 10.0_f64.powf(-absorbance),
