@@ -388,7 +388,7 @@ mod tests {
             // Neither temperatures of lights nor names.
             ("400", "use a name"),
             ("30000", "use a name"),
-            ("no/such/lamp.csv", "use a name"),
+            ("no/such/lamp.csv", "check that the file"),
             ("./LED-B3", "use a name"),
         ] {
             assert!(hint_of(text).starts_with(wanted), "{text}: {}", hint_of(text));

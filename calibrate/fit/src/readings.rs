@@ -18,7 +18,7 @@ use spectra::referencing::{
 use crate::measurement::{
     LargeCsv, LargeCsvChoice, LargeCsvError, MeasurementError, MeasurementTable, Recipes,
     RecipesError, RecordChoice, Scale, ScaleChoice, begins_with_samples, is_measurement_csv,
-    joined_over_files, split_by_file,
+    joined_over_files, split_by_file, tells_of_means,
 };
 use crate::swatch::SwatchSet;
 
@@ -154,6 +154,7 @@ impl Readings {
     ) -> Result<Self, ReadingsError> {
         let recipes = Recipes::from_csv(file, bytes, pigments)?;
         self.table.remarks.clear();
+        self.remarks.retain(|remark| !tells_of_means(&remark.text));
         self.table = recipes.joined_to(self.table)?;
         self.remarks.extend(self.table.remarks.iter().map(Remark::warning));
         self.inputs.push(Input::new(file, bytes));

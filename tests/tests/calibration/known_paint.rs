@@ -412,8 +412,9 @@ fn percent_is_told_from_the_whole_file_and_can_be_forced() {
 fn five_irregular_wavelengths_are_brought_to_a_grid_by_straight_lines() {
     let table = table("sample,W,401,404,411,419,431\na,1,0.401,0.404,0.411,0.419,0.431\n");
     assert_eq!(table.resampled_from, Some(5));
-    assert_eq!((table.grid.start_nm(), table.grid.step_nm(), table.grid.count()), (410.0, 10.0, 3));
-    for (value, wanted) in table.readings[0].reflectance.iter().zip([0.41, 0.42, 0.43]) {
+    assert_eq!((table.grid.start_nm(), table.grid.step_nm(), table.grid.count()), (402.0, 2.0, 15));
+    for (value, nm) in table.readings[0].reflectance.iter().zip(table.grid.wavelengths_nm()) {
+        let wanted = nm / 1000.0;
         assert!((value - wanted).abs() < 1e-12, "{value} for {wanted}");
     }
 }

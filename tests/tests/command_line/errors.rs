@@ -229,8 +229,12 @@ fn spectra_beyond_the_visible_have_no_color() {
     assert_eq!(run.status, 1, "{}", run.err);
     std::fs::write(&file, "sample,500,510,520\na,0.1,0.2,0.3\n").unwrap();
     let run = impasto(&["color", file.to_str().unwrap()]);
+    assert_eq!(run.status, 1, "{}", run.err);
+    assert!(run.err.contains("spectra from 500 to 520 nm have no colour"), "{}", run.err);
+    std::fs::write(&file, "sample,450,560,670\na,0.1,0.2,0.3\n").unwrap();
+    let run = impasto(&["color", file.to_str().unwrap()]);
     assert_eq!(run.status, 0, "{}", run.err);
-    assert!(run.err.contains("warning: spectra from 500 to 520 nm"), "{}", run.err);
+    assert!(run.err.contains("warning: spectra from 450 to 670 nm"), "{}", run.err);
 }
 
 #[test]
@@ -557,7 +561,8 @@ fn wavelengths_in_no_order() {
 
 #[test]
 fn percent_mixed_with_fractions() {
-    refused(&changed("20,22,70", "0.20,0.22,0.70"), &["row 4", "`0.7`", "hint", "--percent"]);
+    let two = SOUND.replace("20,22,70", "0.20,0.22,0.70").replace("40,42,80", "0.4,0.42,0.8");
+    refused(two.as_bytes(), &["row 4", "`0.7`", "hint", "--percent"]);
 }
 
 #[test]
@@ -572,7 +577,10 @@ fn infinite_reflectance() {
 
 #[test]
 fn negative_reflectance() {
-    refused(&changed("10,11,60", "-10,11,60"), &["row 3", "`400`", "`-10`", "from 0 to 200 %"]);
+    refused(&changed("10,11,60", "-60,11,60"), &["row 3", "`400`", "`-60`", "from 0 to 200 %"]);
+    // Values as near to 0 as noise cost their reading only.
+    let run = fit(&changed("10,11,60", "-9,11,60"));
+    assert!(run.err.contains("b is left out: it reads -9 % at 400 nm (row 3)"), "{}", run.err);
 }
 
 #[test]

@@ -41,6 +41,12 @@ pub(crate) fn prepare(folder: &Path, page: &str) {
     std::fs::write(folder.join("spectra.csv"), SPECTRA).unwrap();
     std::fs::write(folder.join("swatches.csv"), SPECTRA).unwrap();
     std::fs::write(folder.join("swatches.ti3"), TI3).unwrap();
+    let book = "name,L,a,b\nRAL 5012,55.1,-15.3,-31.9\n";
+    std::fs::write(folder.join("book.csv"), book).unwrap();
+    let book = folder.join("book.ase").to_str().unwrap().to_owned();
+    let oils = folder.join(oils).to_str().unwrap().to_owned();
+    let run = impasto(&["library", "export", &oils, "--to", "ase", "--output", &book]);
+    assert_eq!(run.status, 0, "{}", run.err);
     std::fs::write(folder.join("pot.csv"), format!("{WAVELENGTHS}{STANDARD}{BATCH}")).unwrap();
     std::fs::write(folder.join("standard.csv"), format!("{WAVELENGTHS}{STANDARD}")).unwrap();
     std::fs::write(folder.join("batch.csv"), format!("{WAVELENGTHS}{BATCH}")).unwrap();

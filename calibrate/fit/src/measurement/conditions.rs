@@ -81,6 +81,11 @@ pub(super) fn split_by_condition(readings: &mut [Reading]) -> Option<SplitSample
     first
 }
 
+/// Whether a remark says which readings are averaged. It does not hold if recipes tell them apart.
+pub(crate) fn tells_of_means(remark: &str) -> bool {
+    remark.contains(" is the mean of ")
+}
+
 /// A remark if readings of one film are averaged.
 pub(super) fn repeated(readings: &[Reading]) -> Option<String> {
     let mut counts: BTreeMap<FilmKey<'_>, usize> = BTreeMap::new();
@@ -150,16 +155,14 @@ pub(crate) fn split_by_file(tables: &mut [MeasurementTable]) -> Option<String> {
     ))
 }
 
-impl MeasurementTable {
-    /// Names readings by their files too if `is_wanted` says so of this name, such as `Blue (a.txt)`.
-    pub(super) fn name_by_file(&mut self, is_wanted: impl Fn(&str) -> bool) {
-        let files: BTreeSet<String> = self.readings.iter().map(|r| r.file.to_string()).collect();
-        let files: BTreeSet<&str> = files.iter().map(String::as_str).collect();
-        for reading in &mut self.readings {
-            let name = format!("{} ({})", reading.sample, label(&reading.file, &files));
-            if is_wanted(&name) {
-                reading.sample = name;
-            }
+/// Names readings by their files too if `is_wanted` says so of this name, such as `Blue (a.txt)`.
+pub(super) fn name_by_file(table: &mut MeasurementTable, is_wanted: impl Fn(&str) -> bool) {
+    let files: BTreeSet<String> = table.readings.iter().map(|r| r.file.to_string()).collect();
+    let files: BTreeSet<&str> = files.iter().map(String::as_str).collect();
+    for reading in &mut table.readings {
+        let name = format!("{} ({})", reading.sample, label(&reading.file, &files));
+        if is_wanted(&name) {
+            reading.sample = name;
         }
     }
 }

@@ -390,7 +390,7 @@ pub enum MeasurementError {
 fn sheet_hint(error: &CsvTableError) -> Option<Hint> {
     Some(Hint::new(match error {
         CsvTableError::MissingColumn { .. } => {
-            "one row names the columns: sample (or Name, Sample ID ..), film, backing, one per pigment, then wavelengths such as 400"
+            "one row names the columns: sample (or Name, Sample ID ..), film, backing, one per pigment, then wavelengths such as 400. If the file holds values only, name their wavelengths: [wavelengths=380..730:10]"
         }
         CsvTableError::RowLength { wanted, found, .. } if found > wanted => {
             "numbers take a decimal point; a decimal comma splits a cell in two"

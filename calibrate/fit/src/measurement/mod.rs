@@ -17,7 +17,7 @@ mod csv;
 mod recipes;
 
 pub use column::names_a_pigment;
-pub(crate) use conditions::{joined_over_files, split_by_file};
+pub(crate) use conditions::{joined_over_files, split_by_file, tells_of_means};
 pub(crate) use csv::{LargeCsv, LargeCsvChoice, LargeCsvError};
 pub use csv::{begins_with_samples, is_measurement_csv};
 pub(crate) use error::k1_below;

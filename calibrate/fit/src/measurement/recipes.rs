@@ -6,6 +6,7 @@ use documents::hint::Explain;
 use documents::{counted, name_list};
 
 use super::column::{Column, TableKind};
+use super::conditions::{name_by_file, tells_of_means};
 use super::csv_rows::CsvRows;
 use super::error::MeasurementError;
 use super::table::{Film, MeasurementTable, Reading};
@@ -116,7 +117,8 @@ impl Recipes {
             by_name.entry(name).or_default().rows.push(row);
         }
         let mut table = table;
-        table.name_by_file(|name| by_name.contains_key(name));
+        table.remarks.retain(|remark| !tells_of_means(remark));
+        name_by_file(&mut table, |name| by_name.contains_key(name));
         for reading in &table.readings {
             if let Some(rows) = by_name.get_mut(reading.sample.as_str()) {
                 rows.readings += 1;

@@ -12,8 +12,8 @@ use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 
 use super::error::CubeError;
-use spectra::WavelengthList;
 use super::window::Values;
+use spectra::WavelengthList;
 
 /// One entry: its name in lower case, the band from 0 or none for the whole file, and its text.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -157,7 +157,8 @@ impl GdalMetadata {
         }
         if let Some(values) = self.numbers(&["wavelength", "wavelengths", "wavelength_nm"], bands) {
             let is_nm = self.of_band(&["wavelength_nm"], 0).is_some();
-            return WavelengthList::of(&values, if is_nm { Some("nm") } else { unit_of(0) }).map(Some);
+            return WavelengthList::of(&values, if is_nm { Some("nm") } else { unit_of(0) })
+                .map(Some);
         }
         // A list in braces, as in the header of ENVI.
         if let Some(list) = self.of_file("wavelength") {

@@ -213,7 +213,6 @@ impl Block<'_> {
             "TITLE",
             "JCAMPDX",
             "XUNITS",
-            "YUNITS",
             "XFACTOR",
             "YFACTOR",
             "FIRSTX",

@@ -324,12 +324,12 @@ fn rows_of_errors_are_lines_of_the_file() {
 
 #[test]
 fn columns_beside_the_names_are_told() {
-    let both = "Data Name,SCI 400nm,SCI 500nm,SCE 400nm,SCE 500nm\nRed,10,20,9,19\n";
+    let both = "Data Name,SCI 400nm,SCI 500nm,SCI 700nm,SCE 400nm,SCE 500nm\nRed,10,20,30,9,19\n";
     let run = color("table.csv", both);
     assert!(run.err.contains("without the specular component (SCE) are left out"), "{}", run.err);
-    let run = color("table.csv", "SAMPLE_ID,SAMPLE_NAME,Mode,400,500\n1,Red,M0,0.1,0.2\n");
+    let run = color("table.csv", "SAMPLE_ID,SAMPLE_NAME,Mode,400,500,700\n1,Red,M0,0.1,0.2,0.3\n");
     assert_eq!(colors(&run)[0].0, "Red");
-    let run = color("table.csv", "sample,White,400,500\nRed,\"1,000\",0.1,0.2\n");
+    let run = color("table.csv", "sample,White,400,500,700\nRed,\"1,000\",0.1,0.2,0.3\n");
     assert_eq!(run.status, 0, "amounts take no part in colours: {}", run.err);
 }
 

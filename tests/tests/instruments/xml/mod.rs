@@ -133,7 +133,9 @@ fn a_sekonic_lamp_is_read_at_its_finest() {
 #[test]
 fn a_light_meters_file_is_a_lamp_and_no_reflectance() {
     let lamp = lamp_from_bytes("li180.txt", &fixture("li180.txt"), None).unwrap();
-    assert_eq!((at(&lamp, 380), at(&lamp, 430), at(&lamp, 780)), (0.88, 0.93, 2.0));
+    for (nm, wanted) in [(380, 0.88), (430, 0.93), (780, 2.0)] {
+        assert!((at(&lamp, nm) - wanted).abs() < 1e-12, "{nm}");
+    }
     let folder = tempfile::tempdir().unwrap();
     let file =
         write(folder.path(), "li180.txt", std::str::from_utf8(&fixture("li180.txt")).unwrap());
