@@ -18,7 +18,6 @@ mod quadrature;
 mod report;
 mod cube;
 mod survey;
-mod identify;
 
 /// The native part of the package `impasto`.
 #[pymodule]
@@ -29,8 +28,6 @@ mod _native {
     use crate::cube::Cube;
     #[pymodule_export]
     use crate::fitting::{Fit, Validation, fit, validate};
-    #[pymodule_export]
-    use crate::identify::identify;
     #[pymodule_export]
     use crate::library::Library;
     #[pymodule_export]
@@ -48,7 +45,7 @@ mod _native {
     #[pymodule_export]
     use crate::residuals::Residuals;
     #[pymodule_export]
-    use crate::survey::Survey;
+    use crate::survey::{Survey, identify};
 
     /// Version of the libraries and of the package.
     #[pymodule_export]

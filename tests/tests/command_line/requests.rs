@@ -4,8 +4,8 @@ use calibrate::matching::{CorrectRequest, MatchRequest};
 use calibrate::plan::PlanRequest;
 use calibrate::quadrature::QuadratureRequest;
 use calibrate::{FitRequest, ValidationRequest};
-use maps::MapRequest;
 use maps::cube::CubeOptions;
+use maps::{IdentifyRequest, MapRequest};
 use pictures::{
     ArtMapCheckRequest, ArtMapRequest, MarksRequest, PictureRequest, RelightRequest, SampleRequest,
     ScriptRequest, SheetRequest, SwatchRequest,
@@ -38,6 +38,7 @@ fn schema() -> Value {
     generator.subschema_for::<ArtMapCheckRequest>();
     generator.subschema_for::<SheetRequest>();
     generator.subschema_for::<MapRequest>();
+    generator.subschema_for::<IdentifyRequest>();
     generator.subschema_for::<CubeOptions>();
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
