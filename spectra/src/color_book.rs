@@ -62,7 +62,7 @@ pub struct ColorBook {
     /// The light that we took because a table of CIELAB or XYZ states none and you gave none. It is D65 for the
     /// observer of 1931. Otherwise this is `None`.
     pub assumed_light: Option<Viewing>,
-    /// What we left out, and other choices, in words.
+    /// Remarks on colours that we left out, and on other choices.
     pub remarks: Vec<String>,
 }
 

@@ -389,7 +389,7 @@ mod tests {
             ("400", "use a name"),
             ("30000", "use a name"),
             ("no/such/lamp.csv", "check that the file"),
-            ("./LED-B3", "use a name"),
+            ("./LED-B3", "check that the file"),
         ] {
             assert!(hint_of(text).starts_with(wanted), "{text}: {}", hint_of(text));
         }

@@ -29,7 +29,6 @@ mod _native {
     #[pymodule_export]
     use crate::fitting::{Fit, Validation, compare, film, fit, validate};
     #[pymodule_export]
-    #[pymodule_export]
     use crate::library::Library;
     #[pymodule_export]
     use crate::light::Light;

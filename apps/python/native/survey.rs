@@ -1,4 +1,4 @@
-//! Surveys of scans, and their maps, and the pigments of single spectra.
+//! Surveys of scans, and their maps; pigments of spectra at points.
 
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -170,7 +170,7 @@ impl IdentifyRequest {
     /// Identifies pigments like [`Self::run`], with `residuals` that you hold instead of a file of them.
     ///
     /// # Errors
-    /// The same as for [`Self::run`].
+    /// [`MapRequestError`] for the reasons of [`Self::run`].
     pub fn run_with(
         &self,
         library: &PigmentLibrary,

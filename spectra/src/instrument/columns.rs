@@ -241,7 +241,7 @@ pub(super) struct NumberTable<'a> {
 }
 
 impl<'a> NumberTable<'a> {
-    /// What stands above each column. It is empty if no line above the rows has cells for the columns.
+    /// The headings of each column. It is empty if no line above the rows has cells for the columns.
     ///
     /// The names stand in the lowest line that begins with a word for wavelengths, else in the lowest that
     /// begins with a word for names, else in the lowest. If they are alike, or if they are quantities, we

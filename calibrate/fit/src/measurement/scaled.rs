@@ -14,7 +14,7 @@ use super::table::Reading;
 pub(super) struct ScaledReadings {
     /// Unit of the file.
     pub(super) scale: Scale,
-    /// Wavelengths, rising.
+    /// Wavelengths in nm, strictly rising.
     pub(super) wavelengths_nm: Vec<f64>,
     pub(super) readings: Vec<Reading>,
     pub(super) remarks: Vec<String>,

@@ -10,7 +10,7 @@ use crate::evaluate::{Remark, Viewing};
 pub struct TargetBook {
     /// The targets in the order of the file, at least one.
     pub targets: Vec<ColorTarget>,
-    /// What we left out, and the light that we took.
+    /// Remarks on colours that we left out, and on the light that we took.
     pub remarks: Vec<Remark>,
 }
 
