@@ -412,11 +412,11 @@ pub(crate) fn targets(
     let (file, name) = split_file_and_name(text);
     let path = Path::new(file);
     let light = options.target_light.as_deref().map(light_and_observer).transpose()?;
-    if is_there(path) {
-        if let Some(book) = TargetBook::read(file, &read(path)?, name, light.as_ref())? {
-            console.remarks(&book.remarks)?;
-            return Ok(book.targets);
-        }
+    if is_there(path)
+        && let Some(book) = TargetBook::read(file, &read(path)?, name, light.as_ref())?
+    {
+        console.remarks(&book.remarks)?;
+        return Ok(book.targets);
     }
     if let Some(selected) = select_spectra(text, reading, console)? {
         return measured(selected, console);

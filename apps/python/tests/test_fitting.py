@@ -68,7 +68,8 @@ def test_a_fault_in_a_file_has_its_place(tmp_path: Path) -> None:
 def test_values_without_their_quantity_or_wavelengths_are_stated(tmp_path: Path) -> None:
     path = tmp_path / "values.txt"
     path.write_text("Red\t1.0\t0.7\t0.2\t0.1\nBlue\t0.3\t0.4\t0.7\t1.0\n")
-    for wavelengths in [[400, 500, 600, 700], "400..700:100"]:
+    ways: list[str | list[float]] = [[400, 500, 600, 700], "400..700:100"]
+    for wavelengths in ways:
         found = im.read(path, values="absorbance", wavelengths=wavelengths, spectra_only=True)
         assert found.spectra.names == ("Red", "Blue")
         assert np.allclose(found.spectra.rows[0], 10 ** -np.array([1.0, 0.7, 0.2, 0.1]))

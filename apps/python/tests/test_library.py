@@ -94,7 +94,8 @@ def test_colours_of_a_book_are_targets(oils: im.Library, tmp_path: Path) -> None
     path.write_text("name,L,a,b\nSky,60,x,-30\n")
     with pytest.raises(im.ReadingError, match="row 2, column `a`") as error:
         im.ColorBook(path)
-    assert error.value.place == im.errors.Place(str(path), 2, "a")
+    place = error.value.place
+    assert place is not None and (place.file, place.row, place.column) == (str(path), 2, "a")
     path.write_text("pigment,price\nZinc White,3\n")
     with pytest.raises(im.Error, match="not a book"):
         im.ColorBook(path)

@@ -162,7 +162,7 @@ impl SpotPigment {
 /// A share in percent, with a decimal where it is below 1 %.
 pub(crate) fn percent(share: f64) -> String {
     match 100.0 * share {
-        none if none == 0.0 => "0".to_owned(),
+        0.0 => "0".to_owned(),
         trace if trace < 0.05 => "<0.1".to_owned(),
         small if small < 0.95 => format!("{small:.1}"),
         other => format!("{other:.0}"),

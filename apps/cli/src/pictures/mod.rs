@@ -23,7 +23,7 @@ use crate::failure::Result;
 /// A verb that draws, paints or maps, with its options.
 #[derive(Debug, Subcommand)]
 pub(crate) enum PictureVerb {
-    Report(report::Report),
+    Report(Box<report::Report>),
     Map(Box<map::Map>),
     Identify(Box<identify::Identify>),
     SimulateScan(simulate_scan::SimulateScan),

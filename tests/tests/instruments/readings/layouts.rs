@@ -299,7 +299,7 @@ fn every_layout_is_read_in_every_style() {
             let plain: Vec<String> = names.iter().map(|name| name.replace("0,5", "0.5")).collect();
             assert_eq!(plain, wanted, "{layout}, {file}: {}", run.err);
             for ((name, y), (_, wanted)) in found.iter().zip(samples) {
-                assert_near(&format!("{layout}, {file}, {name}"), &[*y], &[*wanted], 1e-6);
+                assert_near(format!("{layout}, {file}, {name}"), &[*y], &[*wanted], 1e-6);
             }
             assert!(run.err.contains(remark), "{layout}, {file}: `{remark}`: {}", run.err);
         }
