@@ -70,7 +70,9 @@ def test_values_without_their_quantity_or_wavelengths_are_stated(tmp_path: Path)
     path.write_text("Red\t1.0\t0.7\t0.2\t0.1\nBlue\t0.3\t0.4\t0.7\t1.0\n")
     ways: list[str | list[float]] = [[400, 500, 600, 700], "400..700:100"]
     for wavelengths in ways:
-        found = im.read(path, values="absorbance", wavelengths=wavelengths, spectra_only=True)
+        with pytest.warns(im.FindingWarning) as told:
+            found = im.read(path, values="absorbance", wavelengths=wavelengths, spectra_only=True)
+        assert any("10^-A" in str(warning.message) for warning in told)
         assert found.spectra.names == ("Red", "Blue")
         assert np.allclose(found.spectra.rows[0], 10 ** -np.array([1.0, 0.7, 0.2, 0.1]))
     with pytest.raises(im.ReadingError, match="needed for each of 3 wavelengths"):
@@ -209,8 +211,9 @@ def test_a_film_on_two_cards_has_k_and_s_by_mm(tmp_path: Path) -> None:
 
 def test_a_fit_takes_the_surface_of_a_library(oils: im.Library) -> None:
     readings = im.read(ROOT / "measurements/van-gogh-oils.csv")
-    with pytest.warns(im.FindingWarning, match="read as black"):
+    with pytest.warns(im.FindingWarning) as told:
         fit = im.fit(readings, surface=oils, method="weighted", reference="Zinc White")
+    assert any("read as black" in str(warning.message) for warning in told)
     assert fit.library.about["surface"] == oils.about["surface"]
 
 
