@@ -67,7 +67,7 @@ pub(in super::super) fn read(
         trimmed.filter(|(_, line)| !line.trim().is_empty() && !line.starts_with('#'))
     };
     let count = nm.len();
-    let mut best: (usize, Vec<Line<'_>>) = (0, Vec::new());
+    let mut best: ((usize, usize), Vec<Line<'_>>) = ((0, 0), Vec::new());
     for separator in [Some('\t'), Some(';'), Some(','), None] {
         for decimal in [Decimal::Point, Decimal::Comma] {
             if separator == Some(',') && decimal == Decimal::Comma {
@@ -79,7 +79,7 @@ pub(in super::super) fn read(
             let spectra = lines.iter().filter(|line| line.is_spectrum(count)).count();
             // Without rows that fit, the layout with most numbers does.
             let numbers: usize = lines.iter().map(Line::numbers).sum();
-            let fit = spectra * (1 << 32) + numbers;
+            let fit = (spectra, numbers);
             if fit > best.0 {
                 best = (fit, lines);
             }
