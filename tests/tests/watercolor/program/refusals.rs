@@ -43,8 +43,8 @@ fn subjects_that_cannot_be_read() {
     let broken = folder.write("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
     let photo = folder.photograph();
     for (subject, options, status, what, hint) in [
-        (&folder.file("none.png"), &[][..], 2, "none.png", "cannot be read"),
-        (&folder.file("none.obj"), &[], 2, "none.obj", "cannot be read"),
+        (&folder.file("none.png"), &[][..], 2, "none.png", "check that the file"),
+        (&folder.file("none.obj"), &[], 2, "none.obj", "check that the file"),
         (&text, &[], 1, "text.png: not a PNG, JPEG, TIFF or WebP picture", "save it as PNG"),
         (&stl, &[], 1, "model.stl: not a PNG, JPEG, TIFF or WebP picture", "save it as PNG"),
         (&stl, &["--turntable", "4"], 2, "model.stl is not a mesh", "names of meshes end in .obj"),
@@ -321,9 +321,9 @@ fn masks_and_pigments_where_they_do_not_belong() {
     let stages = folder.file("stages");
     for option in ["--dry-brush-mask", "--density-mask"] {
         let run = watercolor(&mesh, &["--picture", &out, option, &folder.file("none.png")]);
-        refused(&run, 2, "none.png", "cannot be read");
+        refused(&run, 2, "none.png", "check that the file");
         let run = watercolor(&photo, &["--picture", &out, option, &folder.file("none.png")]);
-        refused(&run, 2, "none.png", "cannot be read");
+        refused(&run, 2, "none.png", "check that the file");
     }
     let folder_of_maps = folder.file("maps");
     for (option, value) in
