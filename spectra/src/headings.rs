@@ -118,8 +118,8 @@ const NAMES: [&[&str]; 12] = [
 /// Place in [`NAMES`] from which headings also stand above other things than names.
 const GUESSED: usize = 8;
 
-/// Rank of a heading among those of columns of names, 0 for the most specific. `None` for any other
-/// heading.
+/// How surely a column with this heading holds the names of samples: 0 for the surest heading, such as
+/// `Sample name`, and more for others, such as `Code`. `None` for a heading that does not name samples.
 #[must_use]
 pub fn name_rank(heading: &str) -> Option<usize> {
     let plain = plain(heading);

@@ -75,8 +75,8 @@ pub(crate) struct KnownOptions {
     /// Quantity of the values, where headings mislead: reflectance, percent, fraction, absorbance, k/s,
     /// counts, power or photons
     ///
-    /// Absorbance A becomes the reflectance 10^-A, and K/S that of a film that hides. Photons are divided
-    /// by wavelength.
+    /// We turn absorbance A into the reflectance 10^-A, and K/S into the reflectance of a film that hides its
+    /// ground. For lamps, we divide numbers of photons by the wavelength.
     #[arg(long, value_name = "QUANTITY", value_parser = quantity_names(), hide_possible_values = true, ignore_case = true)]
     values: Option<String>,
     /// Wavelengths of files that hold values only: a file of them, or FIRST..LAST:STEP in nm

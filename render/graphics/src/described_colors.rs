@@ -15,7 +15,8 @@ use png::{ColorType, Info};
 /// The first bytes of a PNG file.
 const SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
 
-/// Colours of a PNG file that are described by other chunks than those of an ICC profile or of sRGB.
+/// Colours of a PNG file without an ICC profile and without the chunk `sRGB`. Its chunks `cICP`, or `gAMA` and
+/// `cHRM`, describe them.
 #[derive(Debug)]
 pub(crate) struct DescribedColors {
     /// Profile that converts the picture.

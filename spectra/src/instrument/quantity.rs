@@ -269,8 +269,8 @@ impl MeasuredQuantity {
         }
     }
 
-    /// The quantity in the field of a file that holds nothing else, such as YUNITS. Letters are those of
-    /// the instruments.
+    /// The quantity that a field such as YUNITS of JCAMP-DX names. This field holds nothing but a quantity, so
+    /// single letters count too: `A` is absorbance and `T` transmittance.
     pub(super) fn of_field(text: &str) -> Self {
         let known = match text.trim().to_lowercase().as_str() {
             "" | "intensity" | "none" => Some(Unstated),

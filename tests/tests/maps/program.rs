@@ -468,7 +468,7 @@ fn what_identify_and_map_cannot_read_is_refused_with_the_other_verb() {
     for (words, status, message) in [
         (vec!["map", &spots], 1, "holds spectra of points, not a scan"),
         (vec!["map", &spots], 1, "impasto identify"),
-        (vec!["identify", &missing], 2, "there is no such file"),
+        (vec!["identify", &missing], 2, "cannot be read"),
         (vec!["identify", &library, &spots], 2, "the spectra go first"),
         (vec!["identify", &spots, "--at-most", "9"], 2, "at_most must be 1 to 4"),
         (vec!["identify", &spots, "--palette", "Gamboge"], 2, "Gamboge"),

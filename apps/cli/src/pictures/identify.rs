@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Arg, Args};
-use documents::file::is_there;
+use documents::file::{FileError, is_there};
 use maps::IdentifyRequest;
 use spectra::instrument::split_file_and_name;
 
@@ -55,10 +55,8 @@ impl Identify {
         let library = chosen(self.library.as_deref(), console)?.library;
         let Some(selected) = select_spectra(&self.spots, &self.reading, console)? else {
             let (file, _) = split_file_and_name(&self.spots);
-            return Err(Failure::usage(
-                format!("{file}: there is no such file"),
-                "name a file of spectra: a CSV, or an instrument's file",
-            ));
+            let missing = std::io::Error::from(std::io::ErrorKind::NotFound);
+            return Err(FileError::reading(Path::new(file), missing).into());
         };
         let found = request.run(&library, &selected.averaged).map_err(failure)?;
         console.remarks(&found.remarks)?;

@@ -23,7 +23,8 @@ const TABLE_STEP_NM: f64 = 20.0;
 /// and S d of the film below its surface, and with a thickness K and S per mm, each with its
 /// standard deviation; the contrast ratio (Y over black divided by Y over white); and the
 /// thickness and the spreading rate at which it reaches 0.98, as ISO 6504-3 defines hiding. The
-/// spreading rate is that of the film unless --solids gives its share of the wet paint.
+/// spreading rate counts the volume of the film as you measured it. Give the share of solids in
+/// the wet paint as --solids for the spreading rate of wet paint.
 #[derive(Debug, Args)]
 pub(crate) struct Film {
     /// Spectra of the film and the cards: a CSV, or an instrument's file

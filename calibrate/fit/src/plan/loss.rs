@@ -48,7 +48,8 @@ impl PlanLoss {
         }
     }
 
-    /// The loss in words. `deviations` are those of the plan, by paint.
+    /// A sentence for the user on what the shorter plan loses. `deviations` are the expected deviations of K
+    /// and S of each paint under this plan, in the order of `paints`.
     #[must_use]
     pub fn text(&self, paints: &PaintSet, deviations: Option<&[RelativeDeviation]>) -> String {
         let left_out: Vec<String> = self

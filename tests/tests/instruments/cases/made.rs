@@ -100,7 +100,7 @@ pub(super) struct Table {
     white: f64,
     /// Lines above the table.
     above: &'static str,
-    /// What stands before and after a wavelength in a heading.
+    /// Texts before and after the wavelength in its heading, e.g. `R` and ` nm`.
     around: (&'static str, &'static str),
     /// Factor on the last spectrum, for example of a black patch.
     last: f64,

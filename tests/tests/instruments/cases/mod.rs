@@ -10,12 +10,13 @@ use calibrate::{ReadingOptions, Readings};
 
 use made::{Table, Written};
 
-/// What reading a file gives.
+/// The expected result of reading a file.
 #[derive(Debug, Clone, Copy)]
 enum Gives {
     /// The spectra with these names, separated by `|`.
     Spectra(&'static str),
-    /// The same, and remarks that hold the word. Without names, any names will do.
+    /// Spectra with the names in the first text, and a remark with the word in the second. If the first text
+    /// is empty, we do not check names.
     Says(&'static str, &'static str),
     /// An error that holds each of these words, separated by `|`.
     Refused(&'static str),

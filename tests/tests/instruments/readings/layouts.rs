@@ -7,7 +7,8 @@ use suite::program::{Run, impasto};
 
 use super::workbooks::workbook;
 
-/// What a table is, its text with commas and decimal points, samples with their Y, and words of a remark.
+/// A layout: its name, its text with commas and decimal points, the expected samples with their Y, and words
+/// of the expected remark.
 type Layout = (&'static str, String, &'static [(&'static str, f64)], &'static str);
 
 const NM: [u32; 7] = [400, 450, 500, 550, 600, 650, 700];

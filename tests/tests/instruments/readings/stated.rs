@@ -1,5 +1,5 @@
-//! What files do not say, or say wrongly: quantities, units, wavelengths and geometry. One row of a table is
-//! one file that the program reads or refuses.
+//! Files that leave out a quantity, a unit, wavelengths or the geometry, or state them wrongly. One row of a
+//! table is one file that the program reads or refuses.
 
 use suite::program::{Run, impasto};
 
