@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use spectra::TristimulusWeights;
 use spectra::optics::{Surface, UnevenFilm};
 
-use crate::calibration::{Calibration, CalibrationError, pigment};
+use crate::calibration::{Calibration, CalibrationError, HALF_KNOWN, pigment};
 use crate::fit::{
     FiniteProblem, FitError, FitSettings, MeasuredFilm, Refined, Refinement, Smoothness,
     fit_finite, root_mean_square,
@@ -125,6 +125,7 @@ pub fn calibrate_absolute(
         observations: Vec::new(),
         condition: None,
         state: Some(fit.state),
+        scattering_known: Vec::new(),
     })
 }
 
@@ -207,9 +208,6 @@ const FOLDS: usize = 5;
 /// Another model replaces the current one only if its score is below this fraction of the current score
 /// (chosen by eye).
 const LEAST_GAIN: f64 = 0.97;
-/// We call S of a pigment undetermined if less than this fraction of the information on S comes from the
-/// films (chosen by eye).
-const HALF_KNOWN: f64 = 0.5;
 const FOLD_SEED: u64 = 2004;
 
 pub(crate) fn errors(

@@ -30,6 +30,9 @@ pub struct Calibration {
     pub condition: Option<Condition>,
     /// Estimates of noise and smoothness. You may reuse them in a leave-one-out fit.
     pub state: Option<RefinedState>,
+    /// Fraction (0 to 1) of what we know of each fitted pigment's S that comes from the data. The rest comes
+    /// from the prior on S. Empty for methods without a prior, and for absolute amounts.
+    pub scattering_known: Vec<(PigmentId, f64)>,
 }
 
 /// Fits K and S of every pigment of `set`, with S relative to the S of `reference`.
@@ -37,7 +40,8 @@ pub struct Calibration {
 /// The evidence states colour errors in CIEDE2000 under `viewing`. We compare the colour of each swatch's
 /// K/S in a film that hides with the colour of the fitted mixture. If the data do not identify a pigment,
 /// we use its samples neither for the fit nor for its errors. If you have only a masstone of this pigment,
-/// it gets its K/S with S = 1 and a mark that it is not identified. Without a masstone we leave it out.
+/// it gets its K/S with an S assumed from the lightness of the masstone, and a mark that it is not
+/// identified. Without a masstone we leave it out.
 ///
 /// # Errors
 /// [`CalibrationError`] if readings cannot be used, the fit fails or `task` was cancelled.
@@ -59,6 +63,12 @@ pub fn calibrate(
     let solution = solve(&problem, settings.method, how, task)?;
     let condition = condition(&problem, &solution.curves);
 
+    let white = PigmentId(reference_among);
+    let known = solution.scattering_known.iter().enumerate();
+    let scattering_known: Vec<(PigmentId, f64)> = known
+        .filter(|(place, _)| PigmentId(*place) != white)
+        .map(|(place, share)| (identified[place], *share))
+        .collect();
     let mut pigments: Vec<(PigmentId, Pigment)> = identified
         .iter()
         .enumerate()
@@ -87,7 +97,13 @@ pub fn calibrate(
         evidence.warnings =
             report::warnings(set, &observations, &unknown, &condition, &evidence.per_sample);
     }
-    Ok(Calibration { library, observations, condition: Some(condition), state: solution.state })
+    Ok(Calibration {
+        library,
+        observations,
+        condition: Some(condition),
+        state: solution.state,
+        scattering_known,
+    })
 }
 
 /// K and S by any method, with their standard deviations.
@@ -96,11 +112,24 @@ pub(crate) struct Solution {
     /// Standard deviations of K and S by pigment. `None` if you did not request them.
     deviations: Option<Vec<Curves>>,
     state: Option<RefinedState>,
+    /// By pigment. Empty without standard deviations, or without a prior on S.
+    scattering_known: Vec<f64>,
 }
+
+/// If less than this fraction of what we know of S comes from the data, the pigment gets a note.
+pub(crate) const HALF_KNOWN: f64 = 0.5;
 
 impl Solution {
     fn pigment(&self, place: usize, name: &str) -> Pigment {
-        pigment(name, &self.curves[place], self.deviations.as_ref().map(|all| &all[place]))
+        let deviations = self.deviations.as_ref().map(|all| &all[place]);
+        let known = self.scattering_known.get(place).filter(|share| **share < HALF_KNOWN);
+        let notes = known.map(|share| {
+            format!(
+                "S comes to {:.0} % from the data, the rest is the assumption that paints scatter like the white",
+                100.0 * share
+            )
+        });
+        Pigment { notes: notes.into_iter().collect(), ..pigment(name, &self.curves[place], deviations) }
     }
 }
 
@@ -137,13 +166,13 @@ pub(crate) fn solve(
             // K and S must not depend on the light under which you compute errors.
             let weights =
                 Viewing::default().weights(problem.grid).expect("the method fits the grid");
-            let Refined { curves, deviations, state, .. } =
+            let Refined { curves, deviations, state, scattering_known } =
                 fit_refined(problem, &weights, how, task)?;
-            return Ok(Solution { curves, deviations, state: Some(state) });
+            return Ok(Solution { curves, deviations, state: Some(state), scattering_known });
         }
     };
     let deviations = how.deviations.then(|| linear_deviations(problem, &curves));
-    Ok(Solution { curves, deviations, state: None })
+    Ok(Solution { curves, deviations, state: None, scattering_known: Vec::new() })
 }
 
 /// Observations that contain identified pigments only, with the shares of these pigments. We also return
@@ -167,25 +196,40 @@ pub(crate) fn without(
     (kept, identified)
 }
 
+/// Standard deviation of log S of a pigment of which we know only the masstone (chosen by eye).
+const MASSTONE_DEVIATION: f64 = 1.5;
+
+/// A pigment of which we know only the masstone. Light paints scatter more: we take the square root of the
+/// luminance Y of the masstone (0 to 1) as its S.
 fn masstone(set: &SwatchSet, observations: &[Observation], lone: &Unidentified) -> Pigment {
     let alone = lone.samples.iter().find(|&&s| observations[s].shares[lone.pigment.index()] == 1.0);
     let sample = &observations[*alone.expect("the pigment has a masstone")];
+    let weights = Viewing::default().weights(set.grid).expect("the method fits the grid");
+    let luminance = weights.xyz(&sample.as_read).y / weights.white().y;
+    let scattering = luminance.clamp(LEAST_LUMINANCE, 1.0).sqrt();
+    let curve = |values: &[f64], factor: f64| -> Vec<f64> {
+        values.iter().map(|value| rounded(value * factor)).collect()
+    };
+    let ones = vec![1.0; sample.ratio.len()];
     Pigment {
         name: set.pigments[lone.pigment.index()].clone(),
         color_index: None,
-        absorption: rounded_values(&sample.ratio),
-        scattering: vec![1.0; sample.ratio.len()],
-        absorption_sd: Vec::new(),
-        scattering_sd: Vec::new(),
+        absorption: curve(&sample.ratio, scattering),
+        scattering: curve(&ones, scattering),
+        absorption_sd: curve(&sample.ratio, scattering * MASSTONE_DEVIATION),
+        scattering_sd: curve(&ones, scattering * MASSTONE_DEVIATION),
         identified: false,
         guessed: false,
         measured_amounts: None,
         notes: vec![format!(
-            "only K/S is known, from the masstone {}; S = 1 stands for an unknown scattering, so that mixtures with this pigment are a guess",
+            "only K/S is known, from the masstone {}; S is assumed from its lightness, within a factor of 4, so that mixtures with this pigment are a guess",
             sample.sample
         )],
     }
 }
+
+/// Least luminance from which we assume S.
+const LEAST_LUMINANCE: f64 = 0.01;
 
 fn evidence(
     library: &PigmentLibrary,

@@ -7,7 +7,8 @@ use documents::{Task, counted, question};
 use pigment::library::{AmountKind, Evidence, Input, PigmentLibrary};
 use pigment::remark::Remark;
 use pigment::visible_band::{BandError, check_visible_band};
-use pigment::{PigmentId, evaluate::Viewing};
+use pigment::PigmentId;
+use pigment::evaluate::{Viewing, percentile};
 use spectra::headings::{is_white, plain};
 use spectra::optics::{Specular, Surface, UnevenFilm};
 
@@ -240,7 +241,7 @@ impl PreparedFit {
     /// # Errors
     /// [`FittingError::Calibration`] if readings cannot be used, the fit fails or `task` was cancelled.
     pub fn fit(&self, task: &Task) -> Result<Fit, FittingError> {
-        let Calibration { mut library, observations, condition, state } = match self.model {
+        let Calibration { mut library, observations, condition, state, scattering_known } = match self.model {
             FilmModel::Relative { reference, surface } => {
                 let Self { set, settings, viewing, .. } = self;
                 calibrate(set, reference, surface, settings, viewing, task)?
@@ -254,7 +255,8 @@ impl PreparedFit {
         library.licence = self.licence.clone();
         library.source = self.source.clone();
         let explained = self.check_order(&mut library, &observations, task);
-        let remarks = remarks(&observations, condition.as_ref());
+        let mut remarks = remarks(&observations, condition.as_ref());
+        remarks.extend(origin_of_scattering(&self.set, &scattering_known));
         Ok(Fit { library, remarks, observations, condition, explained, state })
     }
 
@@ -361,6 +363,18 @@ fn remarks(films: &[Observation], condition: Option<&Condition>) -> Vec<Remark> 
         )));
     }
     remarks
+}
+
+/// How far S of the pigments comes from the data, and of which pigment least.
+fn origin_of_scattering(set: &SwatchSet, known: &[(PigmentId, f64)]) -> Option<Remark> {
+    let shares: Vec<f64> = known.iter().map(|(_, share)| *share).collect();
+    let (least, share) = known.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some(Remark::note(format!(
+        "S comes to {:.0} % from the data (median of pigments), the rest is assumed; least of {}, {:.0} %",
+        100.0 * percentile(&shares, 50.0),
+        set.pigments[least.index()],
+        100.0 * share
+    )))
 }
 
 /// Index of `wanted` among `names`. We prefer an exact match, and else ignore letter case.

@@ -141,7 +141,7 @@ pub(crate) fn warnings(
         let samples = samples.join(", ");
         warnings.push(match lone.unknown {
             Unknown::Scattering => format!(
-                "{name}: scattering not identified, it occurs only as a masstone ({samples}); its K/S is kept with S = 1, and it takes no part in fit and errors"
+                "{name}: scattering not identified, it occurs only as a masstone ({samples}); its K/S is kept with an S assumed from its lightness, and it takes no part in fit and errors"
             ),
             Unknown::Everything => format!(
                 "{name}: not identified, it occurs only in {samples}; left out (add its masstone and a tint with white)"

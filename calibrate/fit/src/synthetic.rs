@@ -10,6 +10,28 @@ use spectra::optics::{Specular, Surface, absorption_over_scattering};
 
 use crate::observation::{BLACK, Hiding, Observation};
 use pigment::Curves;
+use pigment::evaluate::{Viewing, delta_e};
+
+/// Swatches that people paint of each pigment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SwatchKind {
+    /// The white, and of each pigment four tints with it (2, 6, 20 and 50 %).
+    Tints,
+    /// The masstone, three tints with white (5, 20 and 50 %), and two shades: 10 % of black, and 5 % of black
+    /// in the tint of 50 %.
+    TintsAndShades,
+    /// The masstone and one tint with white (20 %).
+    MasstonesAndTints,
+}
+
+/// Standard deviations of the errors of swatches.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SwatchErrors {
+    /// Error of a reading, in reflectance.
+    pub reading: f64,
+    /// Error of the logarithm of each weighed amount.
+    pub weighing: f64,
+}
 
 /// Mixtures of synthetic pigments, the first of which is a white with S = 1.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,13 +76,84 @@ impl SyntheticMixtures {
             let scattering = curve(&mut random, grid, (-2.0, 0.3), 3);
             curves.push(Curves { grid, absorption, scattering });
         }
-        let observations = recipes(&mut random, pigments, count);
+        let recipes = recipes(&mut random, pigments, count);
         let mut mixtures =
             Self { grid, surface, curves, truth: Vec::new(), observations: Vec::new() };
-        for (number, shares) in observations.into_iter().enumerate() {
-            let truth = mixtures.predicted(&mixtures.curves, &shares);
+        let errors = SwatchErrors { reading: noise, weighing: 0.0 };
+        mixtures.observe(recipes, errors, &mut random);
+        mixtures
+    }
+
+    /// Swatches of the paints with K and S `curves`, the first of which is a white with S = 1 and the last a
+    /// black.
+    #[must_use]
+    pub fn swatches(
+        curves: Vec<Curves>,
+        surface: Surface,
+        kind: SwatchKind,
+        errors: SwatchErrors,
+        seed: u64,
+    ) -> Self {
+        let pigments = curves.len();
+        let black = pigments - 1;
+        let mut swatches = vec![vec![(0, 1.0)]];
+        for p in 1..pigments {
+            let tint = |share: f64| vec![(0, 1.0 - share), (p, share)];
+            let shades = [
+                vec![(p, 0.9), (black, 0.1)],
+                vec![(0, 0.475), (p, 0.475), (black, 0.05)],
+            ];
+            match kind {
+                SwatchKind::Tints => swatches.extend([0.02, 0.06, 0.2, 0.5].map(tint)),
+                SwatchKind::TintsAndShades => {
+                    swatches.push(vec![(p, 1.0)]);
+                    swatches.extend([0.05, 0.2, 0.5].map(tint));
+                    swatches.extend(shades.into_iter().filter(|_| p != black));
+                }
+                SwatchKind::MasstonesAndTints => swatches.extend([vec![(p, 1.0)], tint(0.2)]),
+            }
+        }
+        let grid = curves[0].grid;
+        let mut mixtures =
+            Self { grid, surface, curves, truth: Vec::new(), observations: Vec::new() };
+        let recipes = swatches.iter().map(|parts| shares_of(pigments, parts)).collect();
+        mixtures.observe(recipes, errors, &mut ChaCha8Rng::seed_from_u64(seed));
+        mixtures
+    }
+
+    /// Mean CIEDE2000 under D65 between predictions from `curves` and from the true K and S for `count`
+    /// random mixtures of three paints, white among them in every second.
+    #[must_use]
+    pub fn error_of_mixtures(&self, curves: &[Curves], count: usize, seed: u64) -> f64 {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let weights = Viewing::default().weights(self.grid).expect("the method fits the grid");
+        let mut sum = 0.0;
+        for number in 0..count {
+            let mut among = index::sample(&mut random, self.curves.len() - 1, 3).into_vec();
+            among.iter_mut().for_each(|pigment| *pigment += 1);
+            if number % 2 == 0 {
+                among[0] = 0;
+            }
+            let parts: Vec<f64> = (0..3).map(|_| Exp1.sample(&mut random)).collect();
+            let total: f64 = parts.iter().sum();
+            let parts: Vec<(usize, f64)> =
+                among.into_iter().zip(parts).map(|(p, part)| (p, part / total)).collect();
+            let shares = shares_of(self.curves.len(), &parts);
+            let [truth, found] =
+                [&self.curves, curves].map(|curves| self.predicted(curves, &shares));
+            sum += delta_e(&weights, &truth, &found);
+        }
+        sum / count as f64
+    }
+
+    fn observe(&mut self, recipes: Vec<Vec<f64>>, errors: SwatchErrors, random: &mut ChaCha8Rng) {
+        let Self { surface, .. } = *self;
+        let noise = errors.reading;
+        for (number, shares) in recipes.into_iter().enumerate() {
+            let weighed = weighed(&shares, errors.weighing, random);
+            let truth = self.predicted(&self.curves, &weighed);
             let ratio = truth.iter().map(|value: &f64| {
-                let error: f64 = StandardNormal.sample(&mut random);
+                let error: f64 = StandardNormal.sample(random);
                 let internal = surface.internal_from_measured(value + noise * error);
                 absorption_over_scattering(internal.unwrap_or(BLACK).clamp(BLACK, 1.0))
             });
@@ -71,7 +164,7 @@ impl SyntheticMixtures {
                     surface.measured_from_internal(spectra::optics::infinite_film_from_ratio(*q))
                 })
                 .collect();
-            mixtures.observations.push(Observation {
+            self.observations.push(Observation {
                 as_read: reflectance.clone(),
                 sample: format!("S{number:02}"),
                 shares,
@@ -82,9 +175,8 @@ impl SyntheticMixtures {
                 below_surface: 0,
                 above_white: 0,
             });
-            mixtures.truth.push(truth);
+            self.truth.push(truth);
         }
-        mixtures
     }
 
     /// Root mean square difference between predictions from `curves` and the true reflectances.
@@ -105,6 +197,20 @@ impl SyntheticMixtures {
         });
         Curves::weighted_sum(self.grid, parts).hiding(self.surface)
     }
+}
+
+/// Shares that were truly mixed for `shares`, each amount with an error of weighing.
+fn weighed(shares: &[f64], sd: f64, random: &mut ChaCha8Rng) -> Vec<f64> {
+    if sd == 0.0 {
+        return shares.to_vec();
+    }
+    let amounts = shares.iter().map(|share| {
+        let error: f64 = StandardNormal.sample(random);
+        share * (sd * error).exp()
+    });
+    let amounts: Vec<f64> = amounts.collect();
+    let total: f64 = amounts.iter().sum();
+    amounts.iter().map(|amount| amount / total).collect()
 }
 
 /// Exponential of a random level within `level` plus a few Gaussian bumps.

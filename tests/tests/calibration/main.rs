@@ -6,3 +6,4 @@ mod cards;
 mod disorder;
 mod known_paint;
 mod oils;
+mod prior;

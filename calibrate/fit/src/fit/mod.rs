@@ -15,6 +15,7 @@ mod program;
 mod banded;
 mod forward;
 mod objective;
+mod scattering;
 mod refined;
 mod finite;
 

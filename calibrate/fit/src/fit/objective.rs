@@ -40,7 +40,7 @@ const GRADIENT_STEPS: usize = 60;
 ///
 /// - spectral: rho(w (cbrt R - cbrt R_measured)), with the knee at 3 standard deviations
 /// - roughness: smoothness / 2 (second difference over wavelength)^2 of each log K and log S
-/// - ridge: [`RIDGE`] / 2 (log - start)^2, for log S with `scattering_ridge` instead
+/// - ridge: [`RIDGE`] / 2 (log - center)^2, for log S with `scattering_ridge` instead
 /// - colour: strength x rho(CIEDE2000) of each sample
 ///
 /// where rho(r) = c^2 (sqrt(1 + (r/c)^2) - 1) is half a square near 0 and straight beyond the knee c.
@@ -50,8 +50,10 @@ pub(super) struct Objective<'a, F> {
     pub(super) weights: Vec<Vec<f64>>,
     pub(super) knee: f64,
     pub(super) smoothness: f64,
-    pub(super) start: &'a [f64],
-    /// How strongly log S is pulled towards its start. For log K it is [`RIDGE`].
+    /// Each unknown is pulled towards its entry here: log K towards its start, log S towards its start or
+    /// towards the level of its pigment.
+    pub(super) center: Vec<f64>,
+    /// How strongly log S is pulled. For log K it is [`RIDGE`].
     pub(super) scattering_ridge: f64,
     pub(super) color: Option<ColorPart<'a>>,
     pub(super) spare: Spare,
@@ -274,15 +276,13 @@ impl<F: Forward> Objective<'_, F> {
 
     /// How strongly the unknown with the index `place` is pulled towards its start.
     pub(super) fn ridge(&self, place: usize) -> f64 {
-        let layout = self.data.layout;
-        let is_scattering = place % layout.per_wavelength() >= layout.pigments;
-        if is_scattering { self.scattering_ridge } else { RIDGE }
+        if self.data.layout.is_scattering(place) { self.scattering_ridge } else { RIDGE }
     }
 
     fn prior_cost(&self, unknowns: &[f64]) -> f64 {
         let pull: f64 = unknowns
             .iter()
-            .zip(self.start)
+            .zip(&self.center)
             .enumerate()
             .map(|(i, (x, s))| self.ridge(i) * (x - s).powi(2))
             .sum();
@@ -299,8 +299,8 @@ impl<F: Forward> Objective<'_, F> {
     }
 
     fn add_priors(&self, unknowns: &[f64], local: &mut Local) {
-        for (i, (x, start)) in unknowns.iter().zip(self.start).enumerate() {
-            local.gradient[i] += self.ridge(i) * (x - start);
+        for (i, (x, center)) in unknowns.iter().zip(&self.center).enumerate() {
+            local.gradient[i] += self.ridge(i) * (x - center);
             let ridge = self.ridge(i);
             local.matrix.add(i, i, ridge);
         }

@@ -197,6 +197,11 @@ impl Layout {
         }
     }
 
+    /// Whether the unknown with this index is a log S.
+    pub(super) fn is_scattering(self, unknown: usize) -> bool {
+        unknown % self.per_wavelength() >= self.pigments
+    }
+
     /// Unknowns of `curves`, clamped to the bounds.
     pub(super) fn unknowns(self, curves: &CurveTable) -> Vec<f64> {
         let mut unknowns = Vec::with_capacity(self.len());

@@ -15,6 +15,7 @@ use super::forward::{ColorTerm, Data, Forward};
 use super::objective::{ColorPart, ExpectedNoise, Noise, Objective, RIDGE};
 use super::problem::{CurveTable, FitError, Layout, OFF_ZERO, Problem};
 use super::program::weighted;
+use super::scattering::{self, Levels};
 
 /// The spectral loss turns linear at this many standard deviations (chosen by eye).
 const KNEE: f64 = 3.0;
@@ -61,8 +62,8 @@ pub struct Refined {
     /// Standard deviations of K and S by pigment, 0 for the S of the reference, or `None` if they were
     /// not requested.
     pub deviations: Option<Vec<Curves>>,
-    /// By pigment: the fraction (0 to 1) of our information on S that comes from the data. The rest comes
-    /// from the prior. This is empty if you did not request standard deviations.
+    /// By pigment: the fraction (0 to 1) of what we know of S that comes from the data. The rest comes from the
+    /// prior. This is empty if you did not request standard deviations.
     pub scattering_known: Vec<f64>,
     /// Estimates of noise and smoothness.
     pub state: RefinedState,
@@ -107,7 +108,7 @@ impl Refinement {
 ///
 /// We minimise a robust loss of the residuals in measured reflectance, on a perceptually uniform scale
 /// (cube root, weighted by the movement of CIEDE2000 with reflectance at this wavelength), plus the
-/// roughness of log K and log S over wavelength. From this minimum on, we add the robust colour difference
+/// roughness of log K and log S over wavelength, plus the distance of log S from the level of its pigment. From this minimum on, we add the robust colour difference
 /// of each sample under D65 (for which you compute `weights`). K and S stay within 1e-5 to 1e4.
 ///
 /// The variance of a residual is a sum of two: one is perceptually uniform, one is constant in reflectance.
@@ -159,19 +160,26 @@ pub(super) fn refine<F: Forward>(
         },
     });
     let mut unknowns = origin.clone();
+    let is_relative = layout.reference.is_some();
+    let mut center = origin;
+    if is_relative {
+        let scattering = center.iter_mut().enumerate().filter(|(i, _)| layout.is_scattering(*i));
+        scattering.for_each(|(_, level)| *level = 0.0);
+    }
     let mut objective = Objective {
         data,
         weights: Vec::new(),
         knee: KNEE,
         smoothness: state.smoothness,
-        start: &origin,
+        center,
         // We learn little about S from films over a single backing, so we hold S near its start.
-        scattering_ridge: if layout.reference.is_some() { RIDGE } else { SCATTERING_RIDGE },
+        scattering_ridge: if is_relative { scattering::ridge(grid) } else { SCATTERING_RIDGE },
         color: None,
         spare: Spare::default(),
         task,
     };
     settle(&mut objective, &noise, state.noise_ratio, &mut unknowns, 1);
+    settle_levels(&mut objective, &mut unknowns);
     let rounds = if !estimate {
         0
     } else if smoothness == Smoothness::Auto && layout.wavelengths > 2 {
@@ -183,6 +191,7 @@ pub(super) fn refine<F: Forward>(
         task.check()?;
         state.noise_ratio = noise.likeliest_ratio(&data.values(&layout.curves(&unknowns)));
         settle(&mut objective, &noise, state.noise_ratio, &mut unknowns, round + 2);
+        settle_levels(&mut objective, &mut unknowns);
         if round + 1 == rounds {
             break;
         }
@@ -214,12 +223,29 @@ pub(super) fn refine<F: Forward>(
     task.check()?;
     if how.deviations {
         let table = standard_deviations(&objective, &unknowns, &curves);
+        scattering_known = if is_relative {
+            scattering::known(&curves, &table, grid)
+        } else {
+            objective.smoothness = 0.0;
+            share_of_scattering_known(&objective, &unknowns)
+        };
         deviations = Some(table.into_curves(grid));
-        objective.smoothness = 0.0;
-        scattering_known = share_of_scattering_known(&objective, &unknowns);
     }
     task.check()?;
     Ok(Refined { curves: curves.into_curves(grid), deviations, scattering_known, state })
+}
+
+/// Moves the levels of log S to where they are likeliest, and the unknowns with them. Absolute amounts have
+/// none.
+fn settle_levels<F: Forward>(objective: &mut Objective<'_, F>, unknowns: &mut [f64]) {
+    if let Some(levels) = levels(objective, unknowns) {
+        levels.settle(objective, unknowns);
+    }
+}
+
+fn levels<F: Forward>(objective: &Objective<'_, F>, unknowns: &[f64]) -> Option<Levels> {
+    objective.data.layout.reference?;
+    Levels::of(objective, &objective.local(unknowns).matrix.cholesky()?)
 }
 
 /// Descends for one estimate of noise and smoothness. In each round we set the residuals' scale anew from
@@ -294,8 +320,10 @@ pub(super) fn standard_deviations<F: Forward>(
     if let Some(factor) = objective.local(unknowns).matrix.cholesky() {
         let inverse = factor.inverse_band();
         let spread = spread_of_gradients(objective, unknowns, &factor);
+        let of_levels = levels(objective, unknowns)
+            .map_or_else(|| vec![0.0; layout.len()], |l| l.variances(objective, unknowns));
         for (i, variance) in variances.iter_mut().enumerate() {
-            *variance = f64::max(inverse.at(i, i), spread[i]);
+            *variance = f64::max(inverse.at(i, i) + of_levels[i], spread[i]);
         }
     }
     let of_logs = |place: usize, curve: &[f64]| -> Vec<f64> {
