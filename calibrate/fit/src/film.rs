@@ -630,6 +630,21 @@ impl Films {
             "films": self.films.iter().map(FilmOnCards::to_json).collect::<Vec<_>>(),
         })
     }
+
+    /// K and S of all films, one object a wavelength: sample, thickness_mm, and [`FilmOnCards::rows`].
+    #[must_use]
+    pub fn rows(&self) -> Vec<Value> {
+        let rows = self.films.iter().flat_map(|film| {
+            film.rows().into_iter().map(|row| {
+                let mut whole = json!({"sample": film.sample, "thickness_mm": film.thickness_mm});
+                if let (Value::Object(whole), Value::Object(row)) = (&mut whole, row) {
+                    whole.extend(row);
+                }
+                whole
+            })
+        });
+        rows.collect()
+    }
 }
 
 impl FilmOnCards {
