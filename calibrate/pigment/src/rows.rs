@@ -47,6 +47,15 @@ pub fn csv_of(rows: &[Value]) -> String {
     String::from_utf8(table).expect("cells are text")
 }
 
+/// The columns of `row` after those of `start`.
+#[must_use]
+pub fn joined(mut start: Value, row: Value) -> Value {
+    if let (Value::Object(start), Value::Object(row)) = (&mut start, row) {
+        start.extend(row);
+    }
+    start
+}
+
 /// Names and texts of the cells of one object.
 fn cells(row: &Value) -> Vec<(String, String)> {
     let mut found = Vec::new();

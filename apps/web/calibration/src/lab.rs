@@ -102,10 +102,9 @@ impl Wanted {
         let options = PlanRequest { prior, ..self.request };
         let task = told::task(|progress| progress.stage.to_string());
         let plan: Plan = options.run(&self.pigments, &self.white, &task).told()?;
-        let text = |bytes: Vec<u8>| String::from_utf8_lossy(&bytes).into_owned();
         let mut found = plan.to_json();
-        found["form"] = json!(text(plan.form(&form)));
-        found["recipes"] = json!(text(plan.recipes(&form)));
+        found["form"] = json!(String::from_utf8_lossy(&plan.form(&form)));
+        found["recipes"] = json!(String::from_utf8_lossy(&plan.recipes(&form)));
         found["remarks"] = remarks(&plan.remarks);
         Ok(found.to_string())
     }
