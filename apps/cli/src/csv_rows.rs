@@ -1,85 +1,17 @@
 //! Prints rows of JSON as CSV. This file also says how verbs write numbers (without zeros and signs
 //! that say nothing) and colours (as a patch and a code, marked if the display cannot show them).
 
+use calibrate::rows::csv_of;
 use serde_json::Value;
 use spectra::color::{Lab, Rgb, RgbSpace};
 
 use crate::console::Console;
-use crate::failure::{Failure, Result};
-
-/// Keys of JSON that hold a colour as a list, each with names for its columns.
-const COLORS: [(&str, &[&str]); 5] = [
-    ("xyz", &["X", "Y", "Z"]),
-    ("xy", &["x", "y"]),
-    ("lab", &["L", "a", "b"]),
-    ("srgb", &["R", "G", "B"]),
-    ("weights", &["X", "Y", "Z"]),
-];
+use crate::failure::Result;
 
 impl Console<'_> {
-    /// Prints objects as CSV, one row each. Every key of any object becomes a column, in the order in
-    /// which keys first occur. Keys of an inner object become columns such as `outer_inner`. Colours
-    /// become a column for each value.
+    /// Prints objects as CSV, one row each.
     pub(crate) fn csv_rows(&mut self, rows: &[Value]) -> Result<()> {
-        let rows: Vec<Vec<(String, String)>> = rows.iter().map(cells).collect();
-        let mut headings: Vec<&str> = Vec::new();
-        for (name, _) in rows.iter().flatten() {
-            if !headings.contains(&name.as_str()) {
-                headings.push(name);
-            }
-        }
-        let lines = rows.iter().map(|row| {
-            let cells = headings.iter().map(|heading| {
-                let cell = row.iter().find(|(name, _)| name == heading);
-                cell.map_or("", |(_, cell)| cell)
-            });
-            cells.collect()
-        });
-        let table = table(&headings, lines);
-        let table = table.map_err(|error| Failure::usage(error.to_string(), "use --json"))?;
-        self.text(&String::from_utf8_lossy(&table))
-    }
-}
-
-fn table<'a>(
-    headings: &[&str],
-    rows: impl Iterator<Item = Vec<&'a str>>,
-) -> std::result::Result<Vec<u8>, csv::Error> {
-    let mut table = csv::Writer::from_writer(Vec::new());
-    table.write_record(headings)?;
-    for row in rows {
-        table.write_record(row)?;
-    }
-    Ok(table.into_inner().unwrap_or_default())
-}
-
-/// Names and texts of the cells of one object.
-fn cells(row: &Value) -> Vec<(String, String)> {
-    let mut found = Vec::new();
-    for (name, value) in row.as_object().into_iter().flatten() {
-        let color = COLORS.iter().find(|(color, _)| color == name);
-        match (value, color) {
-            (Value::Object(_), _) => {
-                let inner = cells(value).into_iter();
-                found.extend(inner.map(|(inner, cell)| (format!("{name}_{inner}"), cell)));
-            }
-            (Value::Array(parts), Some((_, names))) if parts.len() == names.len() => {
-                let names = names.iter().map(|&name| name.to_owned());
-                found.extend(names.zip(parts.iter().map(cell)));
-            }
-            _ => found.push((name.clone(), cell(value))),
-        }
-    }
-    found
-}
-
-/// The text of a value: the parts of a list are separated by semicolons.
-fn cell(value: &Value) -> String {
-    match value {
-        Value::Null => String::new(),
-        Value::String(text) => text.clone(),
-        Value::Array(parts) => parts.iter().map(cell).collect::<Vec<_>>().join("; "),
-        other => other.to_string(),
+        self.text(&csv_of(rows))
     }
 }
 
@@ -150,30 +82,6 @@ impl TableColors {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::console::{Screen, Voice};
-    use serde_json::json;
-
-    #[test]
-    fn rows_of_different_keys_make_one_table() {
-        let mut out = Vec::new();
-        let mut err = Vec::new();
-        let mut console = Console {
-            out: &mut out,
-            err: &mut err,
-            screen: Screen::default(),
-            command: String::new(),
-            voice: Voice::Usual,
-            streamed: false,
-        };
-        let rows = [
-            json!({"name": "Red, dark", "lab": [40, 50.5, 30], "notes": ["old", "dry"]}),
-            json!({"name": "Blue", "lab": [30, 1, -40], "grams": {"Zinc White": 9}, "cost": null}),
-        ];
-        console.csv_rows(&rows).unwrap();
-        let wanted = "name,L,a,b,notes,grams_Zinc White,cost\n\
-            \"Red, dark\",40,50.5,30,old; dry,,\nBlue,30,1,-40,,9,\n";
-        assert_eq!(String::from_utf8(out).unwrap(), wanted);
-    }
 
     #[test]
     fn zeros_at_the_end_are_left_out_and_others_stay() {

@@ -88,7 +88,7 @@ test("dropped readings of the oils give the library of the program, byte for byt
 
 test("options of the fit are those of the program, and charts show the library's numbers", async () => {
   await page.locator("#fit-options summary").click();
-  await page.getByLabel("Surface", { exact: true }).fill("0.03,0.6");
+  await page.locator("#fit").getByLabel("Surface", { exact: true }).fill("0.03,0.6");
   await page.getByLabel("Readings below the surface").selectOption("floor");
   await page.getByLabel("White", { exact: true }).fill("Lead White");
   await fitOils();
@@ -103,6 +103,26 @@ test("options of the fit are those of the program, and charts show the library's
   const blue = pigments.find((pigment) => pigment.name === "Cobalt Blue");
   assert.deepEqual(await values(curve("#curves-chart", "K")), blue.absorption);
   assert.deepEqual(await values(curve("#curves-chart", "S")), blue.scattering);
+});
+
+test("a fit takes over the surface of a library, as the program does", async () => {
+  program(measurements, "fit", "van-gogh-oils.csv", "--saunderson", "0.015,0.5", "-o", join(folder, "first.json"));
+  await page.locator("#fit-options summary").click();
+  await page.getByLabel("Surface of a library").setInputFiles(join(folder, "first.json"));
+  await fitOils();
+  const file = join(folder, "second.json");
+  program(measurements, "fit", "van-gogh-oils.csv", "--surface-of", join(folder, "first.json"), "-o", file);
+  const library = await saved(page.getByRole("button", { name: "Download library" }));
+  same(library.text, readFileSync(file, "utf8"));
+  const { k1, k2 } = JSON.parse(library.text).saunderson;
+  assert.deepEqual([k1, k2], [0.015, 0.5]);
+  await page.locator("#fit").getByLabel("Surface", { exact: true }).fill("0.03,0.6");
+  await page.locator("#fit-start").click();
+  await page.locator("#notice", { hasText: '"Surface" and "Surface of a library" both state the surface' }).waitFor();
+  await page.locator("#fit").getByLabel("Surface", { exact: true }).fill("");
+  await page.getByLabel("Surface of a library").setInputFiles({ name: "no.json", mimeType: "application/json", buffer: Buffer.from("{}") });
+  await page.locator("#fit-start").click();
+  await page.locator("#notice strong", { hasText: "no.json" }).waitFor();
 });
 
 test("a workbook, UTF-16, and CGATS with recipes apart give the program's libraries", async () => {

@@ -178,6 +178,16 @@ impl SetComparison {
         self.samples.iter().map(row).collect()
     }
 
+    /// [`Self::rows`], each with its illuminant, so that you can join tables of several lights.
+    #[must_use]
+    pub fn rows_under_light(&self) -> Vec<Value> {
+        let mut rows = self.rows();
+        for row in &mut rows {
+            row["illuminant"] = self.viewing.illuminant.name().into();
+        }
+        rows
+    }
+
     /// The comparison as JSON: illuminant, observer, samples (see [`Self::rows`]), mean, p95, max, shift,
     /// tolerance, failed, only_first, only_second.
     #[must_use]

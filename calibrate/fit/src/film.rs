@@ -7,6 +7,7 @@ use documents::hint::Explain;
 use documents::{Task, name_list};
 use pigment::digits::rounded;
 use pigment::remark::Remark;
+use pigment::rows::joined;
 use pigment::visible_band::{BandError, check_visible_band};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -618,17 +619,26 @@ impl Films {
     #[must_use]
     pub fn to_json(&self) -> Value {
         let surface = self.surface;
-        let interpolated = self.interpolated.iter();
-        let interpolated =
-            interpolated.map(|(sample, rate)| json!({"sample": sample, "spreading_rate": rate}));
+        let between = self.interpolated.iter();
+        let between = between.map(|(name, rate)| json!({"sample": name, "spreading_rate": rate}));
         json!({
             "illuminant": self.viewing.illuminant.name(),
             "observer": self.viewing.observer.name(),
             "contrast": self.contrast,
             "surface": {"k1": surface.k1, "k2": surface.k2, "specular": surface.specular},
-            "interpolated": interpolated.collect::<Vec<_>>(),
+            "interpolated": between.collect::<Vec<_>>(),
             "films": self.films.iter().map(FilmOnCards::to_json).collect::<Vec<_>>(),
         })
+    }
+
+    /// K and S of all films, one object a wavelength: sample, thickness_mm, and [`FilmOnCards::rows`].
+    #[must_use]
+    pub fn rows(&self) -> Vec<Value> {
+        let rows = self.films.iter().flat_map(|film| {
+            let start = json!({"sample": film.sample, "thickness_mm": film.thickness_mm});
+            film.rows().into_iter().map(move |row| joined(start.clone(), row))
+        });
+        rows.collect()
     }
 }
 
@@ -657,7 +667,6 @@ impl FilmOnCards {
     #[must_use]
     pub fn rows(&self) -> Vec<Value> {
         let row = |power: &FilmPower| {
-            let ratio = power.ratio.is_finite().then(|| rounded(power.ratio));
             let mut row = json!({ "nm": power.nm });
             let mut put = |name: &str, estimate: Option<Estimate>| {
                 let estimate = estimate.map(Estimate::rounded);
@@ -670,7 +679,7 @@ impl FilmOnCards {
                 put("k_per_mm", power.absorption.map(|k| k.scaled(1.0 / mm)));
                 put("s_per_mm", power.scattering.map(|s| s.scaled(1.0 / mm)));
             }
-            row["k_over_s"] = json!(ratio);
+            row["k_over_s"] = json!(power.ratio.is_finite().then(|| rounded(power.ratio)));
             row
         };
         self.powers.iter().map(row).collect()
@@ -782,10 +791,9 @@ mod tests {
             noise: 0.002,
         };
         let films = [film(0.05, 0.90), film(0.2, 0.995), film(0.1, 0.97)];
-        let found = interpolated(&films, 0.98, 1.0);
+        let [(_, rate)] = interpolated(&films, 0.98, 1.0)[..] else { panic!("one sample") };
         // Between 5 and 10 square metres by litre, three fifths of the way.
-        assert_eq!(found.len(), 1);
-        assert!((found[0].1 - 8.0).abs() < 1e-9, "{found:?}");
+        assert!((rate - 8.0).abs() < 1e-9, "{rate}");
         assert!((interpolated(&films, 0.98, 0.5)[0].1 - 4.0).abs() < 1e-9);
         assert!(interpolated(&films[..2], 0.999, 1.0).is_empty());
     }

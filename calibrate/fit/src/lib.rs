@@ -35,8 +35,8 @@
 pub use pigment::{
     Appearance, Backing, BackingError, ColorError, Curves, FilmOver, IlluminantChange,
     MixtureColor, PigmentId, PigmentLibrary, Recipe, Remark, RemarkKind, Viewing, curation, curves,
-    digits, evaluate, library, matching, palette, quadrature, recipe, remark, smooth_reflectance,
-    visible_band,
+    digits, evaluate, library, matching, palette, quadrature, recipe, remark, rows,
+    smooth_reflectance, visible_band,
 };
 
 pub mod measurement;

@@ -26,6 +26,7 @@
 //!
 //! If you want to measure and fit paints, see the crate `calibrate`. For instruments' files, see `spectra`.
 //! Modules are ordered by dependence: each uses only modules declared above it.
+pub mod rows;
 pub mod evaluate;
 pub mod recipe;
 mod least_squares;

@@ -39,12 +39,7 @@ impl Against<'_> {
             let all: Vec<Value> = found.iter().map(SetComparison::to_json).collect();
             console.json(&Value::from(all))?;
         } else if self.csv {
-            let rows = found.iter().flat_map(|one| {
-                one.rows().into_iter().map(|mut row| {
-                    row["illuminant"] = one.viewing.illuminant.name().into();
-                    row
-                })
-            });
+            let rows = found.iter().flat_map(SetComparison::rows_under_light);
             console.csv_rows(&rows.collect::<Vec<_>>())?;
         } else {
             found.iter().try_for_each(|one| print(one, console))?;

@@ -6,7 +6,6 @@ use calibrate::film::{Estimate, FilmOnCards, FilmPower, Films};
 use calibrate::{FilmRequest, Readings};
 use clap::{Arg, Args};
 use documents::Task;
-use serde_json::{Value, json};
 
 use crate::console::Console;
 use crate::failure::Result;
@@ -75,7 +74,7 @@ impl Film {
             return console.json(&found.to_json());
         }
         if self.csv {
-            return console.csv_rows(&rows(&found));
+            return console.csv_rows(&found.rows());
         }
         for (index, film) in found.films.iter().enumerate() {
             if index > 0 {
@@ -92,20 +91,6 @@ impl Film {
         }
         Ok(())
     }
-}
-
-/// K and S of all films, one row a wavelength.
-fn rows(found: &Films) -> Vec<Value> {
-    let rows = found.films.iter().flat_map(|film| {
-        film.rows().into_iter().map(|row| {
-            let mut whole = json!({"sample": film.sample, "thickness_mm": film.thickness_mm});
-            if let (Value::Object(whole), Value::Object(row)) = (&mut whole, row) {
-                whole.extend(row);
-            }
-            whole
-        })
-    });
-    rows.collect()
 }
 
 fn print(film: &FilmOnCards, found: &Films, console: &mut Console<'_>) -> Result<()> {

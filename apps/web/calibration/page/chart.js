@@ -21,13 +21,27 @@ function niceStep(range, count) {
 
 const short = (value) => String(Number(value.toPrecision(4)));
 
-// A chart of `series` ({ name, values, color, dash }) over `nm`. `most` is the top of the axis, or null. With
-// `logarithmic`, the axis has decades.
+// A value with its standard deviation, if it has one. `null` is a value that nobody knows.
+const withDeviation = (value, sd) => (value === null ? "-" : `${short(value)}${sd === undefined ? "" : ` +- ${short(sd)}`}`);
+
+// The runs of places at which a curve is known.
+function runs(values) {
+  const found = [];
+  values.forEach((value, place) => {
+    if (value === null) return;
+    if (place === 0 || values[place - 1] === null) found.push([]);
+    found.at(-1).push(place);
+  });
+  return found;
+}
+
+// A chart of `series` ({ name, values, color, dash, sd }) over `nm`. A value may be null; a band shows the standard
+// deviations `sd`. `most` is the top of the axis, or null. With `logarithmic`, the axis has decades.
 export function chart({ title, unit, nm, series, most = null, logarithmic = false }) {
   // Letters keep their size on a phone.
   const [WIDTH, HEIGHT] = innerWidth < 560 ? [366, 250] : [560, 300];
   const svg = shape("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, class: "chart", role: "img", tabindex: "0" });
-  const all = series.flatMap((one) => one.values);
+  const all = series.flatMap((one) => one.values.filter((value) => value !== null));
   const [first, last] = [nm[0], nm[nm.length - 1]];
   const x = (value) => LEFT + ((value - first) / (last - first || 1)) * (WIDTH - LEFT - RIGHT);
   const ticks = [];
@@ -59,20 +73,33 @@ export function chart({ title, unit, nm, series, most = null, logarithmic = fals
   svg.append(shape("text", { x: 6, y: 15 }, unit));
   let place = WIDTH - RIGHT;
   for (const { name, color, dash } of [...series].reverse()) {
-    place -= name.length * 6.6 + 34;
+    place -= name.length * 7.2 + 36;
     svg.append(shape("line", { class: "line", x1: place, x2: place + 20, y1: 11, y2: 11, style: `stroke:${color}`, "stroke-dasharray": dash ?? "" }));
     svg.append(shape("text", { x: place + 25, y: 15 }, name));
   }
-  for (const { name, values, color, dash } of series) {
-    const points = values.map((value, index) => `${x(nm[index]).toFixed(1)},${y(value).toFixed(1)}`);
-    svg.append(shape("polyline", { class: "line", points: points.join(" "), style: `stroke:${color}`, "stroke-dasharray": dash ?? "", "data-name": name, "data-values": values.join(" ") }));
+  for (const { name, values, color, dash, sd } of series) {
+    const point = (place, value) => `${x(nm[place]).toFixed(1)},${y(value).toFixed(1)}`;
+    const known = runs(values);
+    if (sd) {
+      for (const run of known) {
+        const edge = (sign) => run.map((place) => point(place, values[place] + sign * sd[place]));
+        svg.append(shape("polygon", { class: "band", points: [...edge(1), ...edge(-1).reverse()].join(" "), style: `fill:${color}` }));
+      }
+    }
+    const style = { class: "line", style: `stroke:${color}`, "stroke-dasharray": dash ?? "" };
+    const [first, ...others] = known.length ? known : [[]];
+    const points = (run) => run.map((place) => point(place, values[place])).join(" ");
+    svg.append(shape("polyline", { ...style, points: points(first), "data-name": name, "data-values": values.join(" "), ...(sd ? { "data-sd": sd.join(" ") } : {}) }));
+    for (const run of others) svg.append(shape("polyline", { ...style, points: points(run) }));
   }
   const told = element("p", { className: "fine" }, "Point at the chart, or press the arrow keys in it, to read a value.");
   told.setAttribute("role", "status");
   reading(svg, { nm, series, x, told, size: [WIDTH, HEIGHT] });
-  const ends = series.map((one) => {
-    const peak = one.values.indexOf(Math.max(...one.values));
-    return `${one.name}: ${short(Math.min(...one.values))} to ${short(one.values[peak])}, greatest at ${nm[peak]} nm`;
+  const ends = series.map(({ name, values }) => {
+    const known = values.filter((value) => value !== null);
+    if (!known.length) return `${name}: unknown`;
+    const peak = values.indexOf(Math.max(...known));
+    return `${name}: ${short(Math.min(...known))} to ${short(values[peak])}, greatest at ${nm[peak]} nm`;
   });
   svg.setAttribute("aria-label", `${title}, ${first} to ${last} nm. ${ends.join(". ")}`);
   return element("div", {}, svg, told, numbers({ title, nm, series }));
@@ -87,7 +114,7 @@ function reading(svg, { nm, series, x, told, size: [width, height] }) {
     at = Math.min(Math.max(index, 0), nm.length - 1);
     cursor.setAttribute("x1", x(nm[at]));
     cursor.setAttribute("x2", x(nm[at]));
-    told.textContent = `${nm[at]} nm: ${series.map((one) => `${one.name} ${short(one.values[at])}`).join(", ")}`;
+    told.textContent = `${nm[at]} nm: ${series.map((one) => `${one.name} ${withDeviation(one.values[at], one.sd?.[at])}`).join(", ")}`;
   };
   svg.addEventListener("pointermove", (event) => {
     const box = svg.getBoundingClientRect();
@@ -109,7 +136,7 @@ function numbers({ title, nm, series }) {
   details.addEventListener("toggle", () => {
     if (!details.open || details.querySelector("table")) return;
     const heads = ["nm", ...series.map((one) => one.name)];
-    const rows = nm.map((value, index) => [value, ...series.map((one) => short(one.values[index]))]);
+    const rows = nm.map((value, index) => [value, ...series.map((one) => withDeviation(one.values[index], one.sd?.[index]))]);
     details.append(element("div", { className: "table", tabIndex: 0, role: "region", ariaLabel: title }, table(heads, rows)));
   });
   return details;

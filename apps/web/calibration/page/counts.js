@@ -19,12 +19,14 @@ function one(files, choices, label) {
   return found[0] ?? null;
 }
 
-// The files to read with, and how the reader names them: `null` without a white.
-export function references() {
-  const [white, dark, tile] = ["c-white", "c-dark", "c-tile-file"].map((id) => [...$(id).files]);
+// The files to read with, and how the reader names them: `null` without a white. The ids of the fields begin with
+// `prefix`.
+export function references(prefix = "") {
+  const field = (id) => $(`${prefix}${id}`);
+  const [white, dark, tile] = ["c-white", "c-dark", "c-tile-file"].map((id) => [...field(id).files]);
   const [even, full, least] = [["c-tile", "Reflectance of the white"], ["c-full", "Largest count"], ["c-least", "Least light"]]
-    .map(([id, label]) => number($(id), label));
-  const subtracted = $("c-subtracted").checked;
+    .map(([id, label]) => number(field(id), label));
+  const subtracted = field("c-subtracted").checked;
   if (even !== null && tile.length) {
     throw { message: "the reflectance of the white is a number or a file, found both", hint: "empty one of the two fields" };
   }
@@ -36,7 +38,7 @@ export function references() {
   if (bytes > MOST_BYTES) {
     throw { message: `${given.map((file) => file.name).join(", ")}: a page reads 256 MB at most`, hint: "use the program impasto" };
   }
-  const choices = names($("c-names").value);
+  const choices = names(field("c-names").value);
   const stray = choices.find((choice) => !given.some((file) => choice.startsWith(`${file.name}#`)));
   if (stray !== undefined) {
     const files = given.map((file) => `${file.name}#NAME`).join("; ") || "FILE#NAME, of a file that is chosen above";

@@ -1,16 +1,15 @@
 // Readings to a library: files, options, the fit and its errors.
 
 import { chart } from "./chart.js";
-import { COUNTS, references } from "./counts.js";
+import { references } from "./counts.js";
 import { $, clearNotice, download, element, fits, names, number, remarkList, takesDrops, takesFiles } from "./page.js";
+import { listFormats, onReading, readingOptions } from "./reading.js";
 import { long, onChange, quick, refuse, shelf, useFitted, useReadings, viewing, work } from "./shelf.js";
 import { say, select } from "./tabs.js";
 
 let files = [];
 // Ends when the files are read, with the options as they are.
 let reading = Promise.resolve();
-// Options that change how files are read.
-const READING = ["o-percent", "o-format", "o-pigments", "o-recipes", "o-transmittance", "o-values", "o-wavelengths", ...COUNTS];
 
 export function startFit() {
   takesDrops($("readings-drop"), take);
@@ -18,19 +17,11 @@ export function startFit() {
   $("readings-sample").addEventListener("click", sample);
   $("fit-start").addEventListener("click", fit);
   $("curves-pigment").addEventListener("change", showCurves);
-  for (const id of READING) $(id).addEventListener("change", () => { if (files.length) read(); });
-  $("fit-options").addEventListener("toggle", listFormats);
+  const again = () => { if (files.length) read(); };
+  onReading(again);
+  for (const id of ["o-pigments", "o-recipes"]) $(id).addEventListener("change", again);
+  $("fit-options").addEventListener("toggle", () => listFormats());
   onChange(showCurves);
-}
-
-async function listFormats() {
-  if ($("o-format").options.length > 1) return;
-  try {
-    const formats = await quick.call("formats");
-    $("o-format").append(...formats.map((name) => element("option", { value: name }, name)));
-  } catch (error) {
-    refuse(error);
-  }
 }
 
 async function sample() {
@@ -52,19 +43,6 @@ export async function take(chosen) {
   await read();
 }
 
-function readingOptions() {
-  const [percent, format] = [$("o-percent").value, $("o-format").value];
-  const pigments = names($("o-pigments").value);
-  return {
-    format: format || null,
-    percent: percent === "" ? null : percent === "true",
-    transmittance: $("o-transmittance").checked,
-    values: $("o-values").value || null,
-    wavelengths: $("o-wavelengths").value.trim() || null,
-    pigments: pigments.length ? pigments : null,
-  };
-}
-
 function read() {
   reading = reading.then(readFiles);
   return reading;
@@ -83,7 +61,8 @@ async function readFilesTold() {
   if (recipes && !fits([recipes])) return null;
   const told = await work("reading", () => {
     const { given, named } = references();
-    const options = JSON.stringify({ ...readingOptions(), references: named });
+    const pigments = names($("o-pigments").value);
+    const options = JSON.stringify({ ...readingOptions(), pigments: pigments.length ? pigments : null, references: named });
     return long.make("readings", "read", [files, recipes, given, options]);
   });
   if (!told) return null;
@@ -123,7 +102,7 @@ async function fit() {
   const done = await work("fitting", async (stage) => {
     const options = JSON.stringify(fitRequest());
     const begun = performance.now();
-    const found = await long.call("fit", [options, JSON.stringify(viewing())], stage);
+    const found = await long.call("fit", [options, $("o-surface-of").files[0] ?? null, JSON.stringify(viewing())], stage);
     const seconds = (performance.now() - begun) / 1000;
     const stem = files[0].name.replace(/\.[^.]*$/, "") || "library";
     await useFitted(`${stem}.pigments.json`, found);

@@ -1,10 +1,14 @@
 // Puts the parts of the page together.
 
+import { startCompare } from "./compare.js";
+import { startFilm } from "./film.js";
 import { saveLibrary, startFit, take } from "./fit.js";
 import { startLink } from "./link.js";
 import { startMix } from "./mix.js";
 import { $, clearNotice, fits, notice, takesDrops, takesFiles } from "./page.js";
 import { startPhotograph } from "./photograph.js";
+import { startPlan } from "./plan.js";
+import { spectraSets } from "./reading.js";
 import { startRecipes } from "./recipes.js";
 import { startReport } from "./report.js";
 import { isScan, startScan, takeScan } from "./scan.js";
@@ -23,6 +27,18 @@ async function openLibrary(file) {
   }
 }
 
+// The lab reads the files of all its parts in one way.
+function startLab() {
+  const changed = (told) => {
+    $("film-start").disabled = !told.has("film");
+    $("compare-start").disabled = !(told.has("batch") && told.has("standard"));
+  };
+  const settled = spectraSets($("lab-reading"), "lab-", ["film", "batch", "standard"], changed);
+  startFilm(settled);
+  startCompare(settled);
+  startPlan();
+}
+
 function start() {
   if (typeof WebAssembly !== "object" || typeof Worker !== "function") {
     notice({ message: "this browser has no WebAssembly or no workers", hint: "use a current browser" });
@@ -34,6 +50,7 @@ function start() {
   startRecipes();
   startPhotograph();
   startReport();
+  startLab();
   startScan();
   $("library-shipped").addEventListener("click", async () => {
     clearNotice();

@@ -89,6 +89,24 @@ export function takesFiles(input, take) {
   });
 }
 
+// A table whose first column names its rows. The first `left` columns hold words, the others numbers.
+export function namedTable(heads, rows, left = 1) {
+  const side = (place) => (place < left ? "" : "n");
+  const cells = (row) => row.map((cell, place) => {
+    const properties = place ? {} : { scope: "row" };
+    return element(place ? "td" : "th", { className: side(place), ...properties }, cell instanceof Node ? cell : String(cell));
+  });
+  const head = heads.map((text, place) => element("th", { scope: "col", className: side(place) }, text));
+  const body = rows.map((row) => element("tr", {}, ...cells(row)));
+  return element("table", {}, element("thead", {}, element("tr", {}, ...head)), element("tbody", {}, ...body));
+}
+
+// Shows the result of a part of the page, and tells a screen reader so by the focus.
+export function showResult(part) {
+  $(`${part}-result`).hidden = false;
+  $(`${part}-done`).focus();
+}
+
 // Saves text as a file of the browser's downloads.
 export function download(name, text, type) {
   const url = URL.createObjectURL(new Blob([text], { type }));

@@ -1,6 +1,6 @@
 // Maps of scans: files, options, and what the maps tell.
 
-import { $, clearNotice, download, element, fits, names, number, remarkList, takesDrops, takesFiles, wholeNumber } from "./page.js";
+import { $, clearNotice, download, element, fits, namedTable, names, number, remarkList, takesDrops, takesFiles, wholeNumber } from "./page.js";
 import { refuse, scans, shelf, useShipped, work } from "./shelf.js";
 import { showMaps, startSpots } from "./spots.js";
 import { say } from "./tabs.js";
@@ -118,12 +118,9 @@ async function map() {
 }
 
 function fillTable(found) {
-  const part = (value) => element("td", { className: "n" }, `${(100 * value).toFixed(1)} %`);
-  const heads = ["pigment", "survey", "present", "mean share"];
-  const head = heads.map((text, place) => element("th", { scope: "col", className: place ? "n" : "" }, text));
-  const rows = found.map((one) => element("tr", {}, element("th", { scope: "row" }, one.pigment),
-    part(one.survey_part), part(one.present), part(one.mean_share)));
-  $("scan-table").replaceChildren(element("thead", {}, element("tr", {}, ...head)), element("tbody", {}, ...rows));
+  const part = (value) => `${(100 * value).toFixed(1)} %`;
+  const rows = found.map((one) => [one.pigment, part(one.survey_part), part(one.present), part(one.mean_share)]);
+  $("scan-table").replaceChildren(namedTable(["pigment", "survey", "present", "mean share"], rows));
 }
 
 // The table of `impasto map --csv`.

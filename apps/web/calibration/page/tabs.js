@@ -2,7 +2,7 @@
 
 import { $ } from "./page.js";
 
-const NAMES = ["fit", "mix", "recipes", "report", "scan"];
+const NAMES = ["fit", "mix", "recipes", "report", "lab", "scan"];
 
 // Shows the panel `name`; with `focus`, its tab gets the focus.
 export function select(name, focus = true) {

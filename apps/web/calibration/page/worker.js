@@ -7,7 +7,7 @@ const module = new URL("impasto_web_calibration_bg.wasm", import.meta.url);
 const ready = init({ module_or_path: module }).then(() => native.begin());
 
 // Objects of the native part that later calls use.
-const held = { readings: null, library: null, targets: null };
+const held = {};
 
 let current = 0;
 let defect = "";
@@ -24,6 +24,8 @@ function libraryTold(viewing) {
   return { about: JSON.parse(held.library.about(viewing)), json: held.library.json() };
 }
 
+const names = (files) => files.map((file) => file.name);
+
 async function contents(files) {
   return Promise.all(files.map(async (file) => new Uint8Array(await file.arrayBuffer())));
 }
@@ -32,15 +34,20 @@ const calls = {
   async read(files, recipes, references, options) {
     const [bytes, given] = [await contents(files), await contents(references)];
     const extra = recipes ? (await contents([recipes]))[0] : undefined;
-    const names = (list) => list.map((file) => file.name);
     hold("readings", new native.Readings(names(files), bytes, recipes?.name, extra, names(references), given, options));
     return JSON.parse(held.readings.about());
+  },
+  async spectra(name, files, references, options) {
+    const [bytes, given] = [await contents(files), await contents(references)];
+    hold(name, native.Readings.spectra(names(files), bytes, names(references), given, options));
+    return JSON.parse(held[name].about());
   },
   forget_readings() {
     hold("readings", null);
   },
-  fit(options, viewing) {
-    const fit = new native.Fit(held.readings, options);
+  async fit(options, surface, viewing) {
+    const extra = surface ? (await contents([surface]))[0] : undefined;
+    const fit = new native.Fit(held.readings, options, surface?.name, extra);
     const errors = JSON.parse(fit.errors());
     hold("library", fit.library());
     fit.free();
@@ -78,6 +85,19 @@ const calls = {
     return withReadings
       ? held.library.report_with(held.readings, request)
       : held.library.report(request);
+  },
+  film(request) {
+    return JSON.parse(held.film.film(request));
+  },
+  compare(request) {
+    return JSON.parse(held.batch.compare(held.standard, request));
+  },
+  // As text, which the module of scans reads.
+  spots() {
+    return held.spots.spots();
+  },
+  plan(wanted, withLibrary) {
+    return JSON.parse(withLibrary ? held.library.plan(wanted) : native.plan(wanted));
   },
   formats() {
     return JSON.parse(native.formats());

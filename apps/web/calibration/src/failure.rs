@@ -6,7 +6,7 @@ pub(crate) use told::{Result, setting};
 
 /// Settings that a hint may name, each with its control on the page. Other settings exist only as
 /// options of the program.
-const CONTROLS: [(&str, &str); 29] = [
+const CONTROLS: [(&str, &str); 45] = [
     ("reference", "\"White\""),
     ("percent", "\"Readings are in\": percent"),
     ("fraction", "\"Readings are in\": fractions"),
@@ -36,6 +36,22 @@ const CONTROLS: [(&str, &str); 29] = [
     ("at_most", "\"Pigments at most\""),
     ("least", "\"Least share\""),
     ("tolerance", "\"Tolerance\""),
+    ("surface_of", "\"Surface of a library\""),
+    ("sample", "\"Sample\""),
+    ("over_white", "\"Over white\""),
+    ("over_black", "\"Over black\""),
+    ("white_card", "\"White card\""),
+    ("black_card", "\"Black card\""),
+    ("thickness_mm", "\"Thickness, mm\""),
+    ("solids", "\"Solids\""),
+    ("contrast", "\"Contrast\""),
+    ("noise", "\"Noise\""),
+    ("swatches", "\"Swatches\""),
+    ("minutes", "\"Minutes\""),
+    ("minutes_each", "\"Minutes each\""),
+    ("grams", "\"Grams\""),
+    ("balance", "\"Balance\""),
+    ("replicates", "\"Readings of each\""),
 ];
 
 pub(crate) fn hint_text(hint: &Hint) -> String {

@@ -4,7 +4,7 @@ use calibrate::{FitRequest, PreparedFit};
 use serde_json::{Value, json};
 use wasm_bindgen::prelude::*;
 
-use crate::failure::{self, Result, Told};
+use crate::failure::{self, Result, Told, setting};
 use crate::library::Library;
 use crate::readings::Readings;
 use crate::remarks::remarks;
@@ -16,10 +16,24 @@ pub struct Fit(calibrate::Fit);
 
 #[wasm_bindgen]
 impl Fit {
-    /// Fits K and S of every pigment. Reports each stage to the page.
+    /// Fits K and S of every pigment, with the surface of a library file if there is one. Reports each stage
+    /// to the page.
     #[wasm_bindgen(constructor)]
-    pub fn of(readings: &Readings, request: &str) -> Result<Fit> {
+    pub fn of(
+        readings: &Readings,
+        request: &str,
+        surface_name: Option<String>,
+        surface_of: Option<Vec<u8>>,
+    ) -> Result<Fit> {
         let request: FitRequest = failure::request(request)?;
+        let request = match surface_name.zip(surface_of) {
+            Some(_) if request.surface.is_some() => {
+                let message = "\"Surface\" and \"Surface of a library\" both state the surface";
+                return Err(setting(message, "empty one of the two fields"));
+            }
+            Some((name, bytes)) => request.with_surface_of(&Library::open(&name, &bytes)?.0),
+            None => request,
+        };
         let task = told::task(|progress| progress.stage.to_string());
         let prepared = PreparedFit::new(&readings.0, &request, &task).told()?;
         let mut fit = prepared.fit(&task).told()?;

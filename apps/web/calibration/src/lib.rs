@@ -9,8 +9,10 @@ mod library;
 mod fitting;
 mod targets;
 mod matching;
+mod lab;
 
 pub use fitting::Fit;
+pub use lab::plan;
 pub use library::Library;
 pub use readings::{Readings, formats};
 pub use targets::Targets;

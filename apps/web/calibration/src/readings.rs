@@ -98,6 +98,21 @@ impl Readings {
         Ok(Self(readings))
     }
 
+    /// Reads only the spectra of files, with films, backings and thicknesses, not their recipes.
+    pub fn spectra(
+        names: &Array<JsString>,
+        contents: &Array<Uint8Array>,
+        given_names: &Array<JsString>,
+        given_contents: &Array<Uint8Array>,
+        options: &str,
+    ) -> Result<Readings> {
+        let options = Options::read(options)?;
+        let given = GivenFiles::put(files(given_names, given_contents))?;
+        let read = calibrate::Readings::spectra_from_files(&files(names, contents), &options);
+        drop(given);
+        read.map(Self).told()
+    }
+
     /// The readings as JSON: pigments, grid, number of readings and of samples, files, remarks.
     pub fn about(&self) -> String {
         let table = &self.0.table;
