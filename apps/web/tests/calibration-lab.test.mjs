@@ -234,8 +234,8 @@ test("every field of the lab has a name of its own, and all fits a phone", async
   assert.deepEqual(nameless, []);
   // The schema says what each request takes, and the page has a field for it.
   const { $defs: all } = JSON.parse(readFileSync(resolve(root, "docs/schema/requests.json"), "utf8"));
-  const elsewhere = { FilmRequest: ["viewing"], CompareRequest: ["viewing"], PlanRequest: [] };
-  for (const [part, request] of [["film", "FilmRequest"], ["compare", "CompareRequest"], ["plan", "PlanRequest"]]) {
+  const elsewhere = { FilmRequest: ["viewing"], CompareRequest: ["viewing"], PlanRequest: [], IdentifyRequest: ["residuals"] };
+  for (const [part, request] of [["film", "FilmRequest"], ["compare", "CompareRequest"], ["plan", "PlanRequest"], ["spots", "IdentifyRequest"]]) {
     for (const key of Object.keys(all[request].properties)) {
       assert.equal(await page.locator(`#${key}-of-${part}`).count(), elsewhere[request].includes(key) ? 0 : 1, `${key} of ${request}`);
     }

@@ -275,6 +275,71 @@ test("a scan above 1 GB is refused before it is read, and mapping can be cancell
   assert.match(await page.locator("#scan-words").innerText(), /^384 x 64 pixels/);
 });
 
+test("spectra at points have the program's pigments, shares and probabilities", async () => {
+  const { nm, pixels } = simulated;
+  const rows = { sky: pixels[2], leaf: pixels[30], flesh: pixels[60], comb: pixels[70], hole: nm.map(() => 0) };
+  const line = (name, film, values) => [name, film, ...values].join(",");
+  const table = [line("sample", "film", nm), ...Object.entries(rows).map(([name, values]) => line(name, "paint", values)), line("card", "none", nm.map(() => 0.9))];
+  const files = [{ name: "fors.csv", bytes: `${table.join("\n")}\n` }];
+  writeFileSync(join(folder, "fors.csv"), files[0].bytes);
+  await page.locator("#tab-scan").click();
+  const identify = async () => {
+    await page.locator("#spots-start:enabled").click();
+    await page.locator("#busy").waitFor({ state: "hidden" });
+    await page.locator("#spots-result").waitFor();
+    assert.equal(await page.evaluate(() => document.activeElement.id), "spots-done");
+    return JSON.parse((await savedBy(page, page.locator("#spots-json"))).text);
+  };
+  const check = async (found, ...words) => {
+    const wanted = JSON.parse(program(folder, "identify", "fors.csv", library, ...words, "--json"));
+    assert.deepEqual(near(found), near(wanted));
+    assert.equal(found.spectra.length, 5, "a bare card holds no paint");
+    const csv = (await savedBy(page, page.locator("#spots-csv"))).text.split("\n");
+    const told = program(folder, "identify", "fors.csv", library, ...words, "--csv").split("\n");
+    assert.deepEqual([csv.length, csv[0]], [told.length, told[0]]);
+    return wanted;
+  };
+  await dropped(page, "#spots-drop", files);
+  const wanted = await check(await identify());
+  assert.match(await page.locator("#spots-notes").innerText(), /Van Gogh's oils[^]*Counted as one: [^]*left out 1 spectrum of bare cards/);
+  const text = program(folder, "identify", "fors.csv", library);
+  // Table and words of each spectrum are those that the program prints.
+  const printed = text.split("\n").filter((one) => !one.startsWith("counted as one"));
+  for (const { spectrum, mapped } of wanted.spectra) {
+    await page.locator("#spots-which").selectOption(spectrum);
+    const start = printed.findIndex((one) => one.startsWith(`${spectrum}: `));
+    assert.equal(await page.locator("#spots-words").innerText(), printed[start]);
+    const shown = (await page.locator("#spots-pigments").innerText()).replace(/\s+/g, " ");
+    for (const one of printed.slice(start + 1)) {
+      const pigment = / {2}(.*?) +(\S+ \+- +\S+ %) {2}there: +(\d+ %)$/.exec(one);
+      if (!pigment) break;
+      const row = `${pigment[1]} ${pigment[2].replace(/ +/g, " ")} ${pigment[3]}`;
+      assert.ok(shown.includes(row), `${row}\n${shown}`);
+    }
+    const curves = await page.locator("#spots-chart polyline").count();
+    assert.equal(curves, mapped.length ? 2 : 1);
+  }
+  assert.match(text, /^hole: not compared: darker/m);
+  await page.locator("#spots-which").selectOption("leaf");
+  await page.screenshot({ path: join(pictures, "calibration-points-1280.png"), fullPage: true });
+  await page.setViewportSize({ width: 400, height: 860 });
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= 400);
+  await page.screenshot({ path: join(pictures, "calibration-points-400.png"), fullPage: true });
+  await page.setViewportSize({ width: 1280, height: 900 });
+  // Options, and a refusal in the words of the panel.
+  await page.locator("details:has(#spots-fields) > summary").click();
+  await page.locator("#at_most-of-spots").fill("2");
+  await page.locator("#palette-of-spots").fill("Zinc White; Cobalt Blue; Viridian; Vermilion");
+  await page.locator("#noise-of-spots").fill("0.01");
+  await page.locator("#apart-of-spots").check();
+  const palette = ["Zinc White", "Cobalt Blue", "Viridian", "Vermilion"].flatMap((name) => ["--palette", name]);
+  await check(await identify(), "--at-most", "2", "--noise", "0.01", "--apart", ...palette);
+  await page.locator("#palette-of-spots").fill("Mud");
+  await page.locator("#spots-start").click();
+  await page.locator("#notice", { hasText: refused("identify", "fors.csv", library, "--palette", "Mud") }).waitFor();
+  assert.doesNotMatch(await notice().innerText(), /--palette/);
+});
+
 test("without a network the panel fits 390 and 1280 px, light and dark, and every control has a name", async () => {
   await page.locator("html[data-offline=ready]").waitFor({ state: "attached" });
   await context.setOffline(true);

@@ -8,6 +8,7 @@ import { startMix } from "./mix.js";
 import { $, clearNotice, fits, notice, takesDrops, takesFiles } from "./page.js";
 import { startPhotograph } from "./photograph.js";
 import { startPlan } from "./plan.js";
+import { startPoints } from "./points.js";
 import { spectraSets } from "./reading.js";
 import { startRecipes } from "./recipes.js";
 import { startReport } from "./report.js";
@@ -52,6 +53,7 @@ function start() {
   startReport();
   startLab();
   startScan();
+  startPoints();
   $("library-shipped").addEventListener("click", async () => {
     clearNotice();
     try {

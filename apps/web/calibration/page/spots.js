@@ -88,7 +88,7 @@ function draw() {
 }
 
 // A curve of `values` over `from`, read at the wavelengths `nm`.
-function at(nm, from, values) {
+export function at(nm, from, values) {
   return nm.map((one) => {
     const next = Math.min(Math.max(from.findIndex((other) => other >= one), 1), from.length - 1);
     const way = (one - from[next - 1]) / (from[next] - from[next - 1]);

@@ -4,11 +4,11 @@ use documents::hint::Explain;
 use pigment::{Remark, RemarkKind};
 use serde_json::{Value, json};
 
-pub(crate) use told::Result;
+pub(crate) use told::{Controls, Result};
 
-/// Settings that a hint may name, each with its control in the panel. Other settings exist only as
+/// Settings of maps that a hint may name, each with its control in the panel. Other settings exist only as
 /// options of the program.
-const CONTROLS: [(&str, &str); 11] = [
+pub(crate) const CONTROLS: [(&str, &str); 11] = [
     ("at_most", "\"Pigments of a pixel at most\""),
     ("palette", "\"Only these pigments\""),
     ("spot", "spot of the map"),
@@ -27,13 +27,16 @@ pub(crate) fn request<T: serde::de::DeserializeOwned>(json: &str) -> Result<T> {
     told::request(json, &CONTROLS)
 }
 
-/// For each remark: `warning`, `text` and `hint`.
-pub(crate) fn remarks<'a>(remarks: impl IntoIterator<Item = &'a Remark>) -> Value {
+/// For each remark: `warning`, `text` and `hint`, which names `controls`.
+pub(crate) fn remarks<'a>(
+    remarks: impl IntoIterator<Item = &'a Remark>,
+    controls: &Controls,
+) -> Value {
     let told = remarks.into_iter().map(|remark| {
         json!({
             "warning": remark.kind == RemarkKind::Warning,
             "text": remark.text,
-            "hint": remark.hint.as_ref().map(|hint| told::hint_text(hint, &CONTROLS)),
+            "hint": remark.hint.as_ref().map(|hint| told::hint_text(hint, controls)),
         })
     });
     told.collect()

@@ -6,7 +6,9 @@ mod failure;
 mod slices;
 mod mapped;
 mod scan;
+mod points;
 
 pub use mapped::Mapped;
+pub use points::identify;
 pub use scan::Scan;
 pub use told::begin;

@@ -6,7 +6,7 @@ use pigment::PigmentLibrary;
 use serde_json::{Value, json};
 use wasm_bindgen::prelude::*;
 
-use crate::failure::{Result, Told, remarks};
+use crate::failure::{CONTROLS, Result, Told, remarks};
 
 /// Maps of a scan.
 #[wasm_bindgen]
@@ -39,7 +39,7 @@ impl Mapped {
         let about = json!({
             "words": scan.words(),
             "groups": scan.group_words(),
-            "remarks": remarks(scan.mapper().remarks()),
+            "remarks": remarks(scan.mapper().remarks(), &CONTROLS),
             "unmapped": overview.unmapped_words(),
             "pictures": named,
             "width": overview.width,

@@ -8,7 +8,7 @@ use serde_json::json;
 use told::stage;
 use wasm_bindgen::prelude::*;
 
-use crate::failure::{Result, Told, remarks, request};
+use crate::failure::{CONTROLS, Result, Told, remarks, request};
 use crate::mapped::Mapped;
 use crate::slices::scan_files;
 
@@ -45,7 +45,7 @@ impl Scan {
             "lines": cube.lines(),
             "samples": cube.samples(),
             "wavelengths_nm": cube.wavelengths_nm(),
-            "remarks": remarks(cube.remarks()),
+            "remarks": remarks(cube.remarks(), &CONTROLS),
         });
         Ok(Self { files, options, told: told.to_string(), library: None, surveyed: None })
     }

@@ -39,6 +39,9 @@ const calls = {
     mapped.free();
     return { about, pictures };
   },
+  identify(name, library, spots, request) {
+    return JSON.parse(native.identify(name, library, spots, request));
+  },
   spot(...sides) {
     return JSON.parse(scan.spot(...sides));
   },
