@@ -47,24 +47,13 @@ pub fn to_csv(library: &PigmentLibrary) -> String {
     header.extend(library.grid.wavelengths_nm().map(|nm| nm.to_string()));
     writer.write_record(&header).expect("writing to memory does not fail");
     for pigment in &library.pigments {
-        let curves = if pigment.identified {
-            let k = pigment.absorption.clone();
-            let s = pigment.scattering.clone();
-            [k, s, pigment.absorption_sd.clone(), pigment.scattering_sd.clone(), Vec::new()]
-        } else {
-            [
-                vec![],
-                vec![],
-                vec![],
-                vec![],
-                pigment
-                    .absorption
-                    .iter()
-                    .zip(&pigment.scattering)
-                    .map(|(k, s)| k / s)
-                    .map(rounded)
-                    .collect(),
-            ]
+        let Pigment { absorption, scattering, absorption_sd, scattering_sd, .. } = pigment;
+        let pairs = absorption.iter().zip(scattering).filter(|_| !pigment.identified);
+        let ratio: Vec<f64> = pairs.map(|(k, s)| rounded(k / s)).collect();
+        // K/S alone says that S is unknown, K/S beside K and S that S is assumed.
+        let curves = match pigment.identified || !scattering_sd.is_empty() {
+            true => [absorption, scattering, absorption_sd, scattering_sd, &ratio],
+            false => [&Vec::new(), &Vec::new(), &Vec::new(), &Vec::new(), &ratio],
         };
         for (quantity, curve) in QUANTITIES.iter().zip(curves).filter(|(_, c)| !c.is_empty()) {
             let mut record = vec![pigment.name.clone(), (*quantity).to_owned()];
@@ -77,7 +66,8 @@ pub fn to_csv(library: &PigmentLibrary) -> String {
 }
 
 /// Reads a library from `text`, the content of `file`, in the form that [`to_csv`] writes. You may name the
-/// quantities `K`, `S` and `K/S`. If you give only K/S of a pigment, its S is unknown.
+/// quantities `K`, `S` and `K/S`. If you give only K/S of a pigment, its S is unknown. If you give K/S beside K and
+/// S, its S is assumed.
 ///
 /// # Errors
 /// [`TableError`] with row and column.
@@ -184,10 +174,12 @@ fn column(
 
 fn pigment(file: &str, name: String, curves: [Vec<f64>; 5]) -> Result<Pigment, TableError> {
     let [mut absorption, mut scattering, absorption_sd, scattering_sd, ratio] = curves;
-    let identified = !(absorption.is_empty() && scattering.is_empty() && !ratio.is_empty());
-    if !identified {
+    let identified = ratio.is_empty();
+    let mut note = "only K/S is known; S is assumed";
+    if !identified && absorption.is_empty() && scattering.is_empty() {
         scattering = vec![1.0; ratio.len()];
         absorption = ratio;
+        note = "only K/S is known; S = 1 stands for an unknown scattering";
     }
     for (curve, quantity) in [(&absorption, QUANTITIES[0]), (&scattering, QUANTITIES[1])] {
         if curve.is_empty() {
@@ -208,11 +200,7 @@ fn pigment(file: &str, name: String, curves: [Vec<f64>; 5]) -> Result<Pigment, T
         identified,
         guessed: false,
         measured_amounts: None,
-        notes: if identified {
-            Vec::new()
-        } else {
-            vec!["only K/S is known; S = 1 stands for an unknown scattering".to_owned()]
-        },
+        notes: if identified { Vec::new() } else { vec![note.to_owned()] },
     })
 }
 
