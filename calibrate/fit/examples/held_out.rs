@@ -27,7 +27,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         for kind in kinds {
             let mut sums = [0.0; 2];
             for seed in 0..TRIALS {
-                for (place, curves) in [curves(&oils), random_curves(seed)].into_iter().enumerate() {
+                for (place, curves) in [curves(&oils), random_curves(seed)].into_iter().enumerate()
+                {
                     let swatches =
                         SyntheticMixtures::swatches(curves, oils.saunderson, kind, errors, seed);
                     sums[place] += error(&swatches, seed)?;

@@ -129,7 +129,10 @@ impl Solution {
                 100.0 * share
             )
         });
-        Pigment { notes: notes.into_iter().collect(), ..pigment(name, &self.curves[place], deviations) }
+        Pigment {
+            notes: notes.into_iter().collect(),
+            ..pigment(name, &self.curves[place], deviations)
+        }
     }
 }
 

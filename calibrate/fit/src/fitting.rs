@@ -4,11 +4,11 @@ use std::path::Path;
 
 use documents::hint::Explain;
 use documents::{Task, counted, question};
+use pigment::PigmentId;
+use pigment::evaluate::{Viewing, percentile};
 use pigment::library::{AmountKind, Evidence, Input, PigmentLibrary};
 use pigment::remark::Remark;
 use pigment::visible_band::{BandError, check_visible_band};
-use pigment::PigmentId;
-use pigment::evaluate::{Viewing, percentile};
 use spectra::headings::{is_white, plain};
 use spectra::optics::{Specular, Surface, UnevenFilm};
 
@@ -241,15 +241,16 @@ impl PreparedFit {
     /// # Errors
     /// [`FittingError::Calibration`] if readings cannot be used, the fit fails or `task` was cancelled.
     pub fn fit(&self, task: &Task) -> Result<Fit, FittingError> {
-        let Calibration { mut library, observations, condition, state, scattering_known } = match self.model {
-            FilmModel::Relative { reference, surface } => {
-                let Self { set, settings, viewing, .. } = self;
-                calibrate(set, reference, surface, settings, viewing, task)?
-            }
-            FilmModel::Absolute(film) => {
-                calibrate_absolute(&self.set, film, &self.settings, &self.viewing, task)?
-            }
-        };
+        let Calibration { mut library, observations, condition, state, scattering_known } =
+            match self.model {
+                FilmModel::Relative { reference, surface } => {
+                    let Self { set, settings, viewing, .. } = self;
+                    calibrate(set, reference, surface, settings, viewing, task)?
+                }
+                FilmModel::Absolute(film) => {
+                    calibrate_absolute(&self.set, film, &self.settings, &self.viewing, task)?
+                }
+            };
         library.inputs = self.inputs.clone();
         library.title = self.title.clone();
         library.licence = self.licence.clone();

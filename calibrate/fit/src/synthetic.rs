@@ -99,10 +99,8 @@ impl SyntheticMixtures {
         let mut swatches = vec![vec![(0, 1.0)]];
         for p in 1..pigments {
             let tint = |share: f64| vec![(0, 1.0 - share), (p, share)];
-            let shades = [
-                vec![(p, 0.9), (black, 0.1)],
-                vec![(0, 0.475), (p, 0.475), (black, 0.05)],
-            ];
+            let shades =
+                [vec![(p, 0.9), (black, 0.1)], vec![(0, 0.475), (p, 0.475), (black, 0.05)]];
             match kind {
                 SwatchKind::Tints => swatches.extend([0.02, 0.06, 0.2, 0.5].map(tint)),
                 SwatchKind::TintsAndShades => {

@@ -20,8 +20,7 @@ fn swatches(kind: SwatchKind, errors: SwatchErrors, seed: u64) -> SyntheticMixtu
 }
 
 fn fitted(made: &SyntheticMixtures, deviations: bool) -> Refined {
-    let problem =
-        Problem::new(made.grid, made.surface, &made.observations, PigmentId(0)).unwrap();
+    let problem = Problem::new(made.grid, made.surface, &made.observations, PigmentId(0)).unwrap();
     let weights = Viewing::default().weights(made.grid).unwrap();
     let how = Refinement { smoothness: Smoothness::Auto, state: None, deviations };
     fit_refined(&problem, &weights, how, &Task::default()).unwrap()

@@ -1,4 +1,4 @@
-//! What we know of S before any data: a prior on log S of every pigment of a fit relative to a white.
+//! The prior on log S of every pigment of a fit relative to a white: what we assume of S before any data.
 //!
 //! log S of a pigment is a level plus deviations by wavelength. The level is normal around 0, where the pigment
 //! scatters like the white, and the deviations are normal around the level. Tints with white alone hardly
@@ -20,7 +20,7 @@ const LEVEL_SD: f64 = 2.0;
 /// standard deviation of 0.7. Of 1, 2 and 3 it predicts unseen mixtures of synthetic swatches best, over all
 /// kinds of swatches and errors (`examples/held_out.rs`).
 const RIDGE_PER_STEP: f64 = 2.0;
-/// What we add to the curvature of the cost by a level, so that levels without any data stay put.
+/// We add this to the curvature of the cost by a level, so that levels without any data stay put.
 const LEAST_CURVATURE: f64 = 1e-4;
 /// A level moves by at most this much at once, in log units.
 const LONGEST_MOVE: f64 = 3.0;
@@ -32,7 +32,7 @@ pub(super) fn ridge(grid: Grid) -> f64 {
 
 /// How the cost and the unknowns follow the levels of the pigments, near a minimum of the cost.
 pub(super) struct Levels {
-    /// Pigments that have a level, each with the place of its log S among the unknowns of a wavelength.
+    /// Place of each log S with a level among the unknowns of a wavelength.
     places: Vec<usize>,
     /// By level: movement of each unknown if the level rises by 1.
     follows: Vec<Vec<f64>>,
@@ -69,7 +69,8 @@ impl Levels {
         let layout = objective.data.layout;
         let ridge = objective.scattering_ridge;
         let per = layout.per_wavelength();
-        let places: Vec<usize> = (0..layout.pigments).filter_map(|p| layout.scattering(p)).collect();
+        let places: Vec<usize> =
+            (0..layout.pigments).filter_map(|p| layout.scattering(p)).collect();
         let mut follows: Vec<Vec<f64>> = Vec::with_capacity(places.len());
         for group in places.chunks(TOGETHER) {
             let mut right = vec![[0.0; TOGETHER]; layout.len()];
@@ -83,7 +84,8 @@ impl Levels {
         let count = places.len();
         let pulled = ridge * layout.wavelengths as f64 + LEAST_CURVATURE;
         let curvature = DMatrix::from_fn(count, count, |row, column| {
-            let followed = (0..layout.wavelengths).map(|at| follows[column][at * per + places[row]]);
+            let followed =
+                (0..layout.wavelengths).map(|at| follows[column][at * per + places[row]]);
             let own = if row == column { pulled } else { 0.0 };
             own - ridge * followed.sum::<f64>()
         });
