@@ -5,6 +5,8 @@
 //! cargo run --release -p impasto-calibrate --example held_out
 //! ```
 
+#![expect(clippy::print_stdout, reason = "an example prints what it shows")]
+
 use calibrate::fit::{Problem, Refinement, Smoothness, fit_refined};
 use calibrate::synthetic::{SwatchErrors, SwatchKind, SyntheticMixtures};
 use calibrate::{Curves, PigmentId, PigmentLibrary, Readings, ValidationRequest, Viewing};
