@@ -397,6 +397,17 @@ fn a_batch_that_lacks_blue_is_told_how_much() {
     let grams = first["grams"].as_f64().unwrap();
     assert!((10.0..23.0).contains(&grams), "{grams}");
     assert!(first["delta_e"]["D65"].as_f64().unwrap() <= 0.5, "{first}");
+    let expected = first["expected"].as_f64().unwrap();
+    assert!(expected > first["distance"].as_f64().unwrap() && expected < 1.0, "{first}");
+    // The reading shows that blue is missing. Some of it may be a weak paint.
+    let blue = &json["pot"][1];
+    let [made, grams, strength] = ["made", "grams", "strength"].map(|k| blue[k].as_f64().unwrap());
+    assert!(made == 60.0 && grams < 55.0 && strength < 1.0, "{blue}");
+    let run = impasto(&[&all[..], &["--strength", "cobalt=1"]].concat());
+    assert!(run.out.contains("Cobalt Blue (made 60.0 g, strength 1.0"), "{}", run.out);
+    let second = ["--before", &batch, "--added", "cobalt=2", "--at-most", "1", "--json"];
+    let second = impasto(&[&all[..], &second].concat()).json();
+    assert_eq!((&second["batch_grams"], &second["pot"][1]["made"]), (&502.0.into(), &62.0.into()));
     let spectral = impasto(&[&all[..], &["--by", "spectrum"]].concat()).out;
     assert!(spectral.contains("within 0.5 % of reflectance of the target"), "{spectral}");
     assert!(spectral.contains("; reflectance 0."), "{spectral}");
@@ -421,6 +432,14 @@ fn faults_name_the_option_and_the_way_out() {
         (&standard, "#808080", vec!["--made", "Zinc White=1"], 2, "a batch is a measured spectrum"),
         (&standard, &batch, vec!["--made", "Zinc White"], 2, "--made takes PIGMENT=GRAMS"),
         (&standard, &batch, vec!["--made", "Gold=1"], 1, "`Gold`"),
+        (
+            &standard,
+            &batch,
+            vec!["--made", "Zinc White=1", "--added", "Cobalt Blue=1"],
+            2,
+            "--before",
+        ),
+        (&standard, &batch, vec!["--made", "Zinc White=1", "--strength", "Zinc White=0"], 2, "0.9"),
         (&standard, &batch, vec!["--made", "Zinc White=1", "--grams", "0"], 2, "try --grams 500"),
         (&standard, &batch, vec!["--made", "Zinc White=1", "--least", "0"], 2, "try --least 0.1"),
     ] {

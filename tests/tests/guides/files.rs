@@ -47,7 +47,8 @@ pub(crate) fn prepare(folder: &Path, page: &str) {
     let oils = folder.join(oils).to_str().unwrap().to_owned();
     let run = impasto(&["library", "export", &oils, "--to", "ase", "--output", &book]);
     assert_eq!(run.status, 0, "{}", run.err);
-    std::fs::write(folder.join("pot.csv"), format!("{WAVELENGTHS}{STANDARD}{BATCH}")).unwrap();
+    std::fs::write(folder.join("pot.csv"), format!("{WAVELENGTHS}{STANDARD}{BATCH}{CORRECTED}"))
+        .unwrap();
     std::fs::write(folder.join("standard.csv"), format!("{WAVELENGTHS}{STANDARD}")).unwrap();
     std::fs::write(folder.join("batch.csv"), format!("{WAVELENGTHS}{BATCH}")).unwrap();
     std::fs::write(folder.join("recipes.csv"), RECIPES).unwrap();
@@ -119,6 +120,8 @@ const WAVELENGTHS: &str = "sample,400,450,500,550,600,650,700\n";
 /// Reading of zinc white with cobalt blue. [`BATCH`] has less blue.
 const STANDARD: &str = "standard,0.5,0.74,0.63,0.31,0.2,0.21,0.45\n";
 const BATCH: &str = "batch,0.52,0.78,0.69,0.39,0.27,0.28,0.53\n";
+/// Reading of [`BATCH`] after blue was added.
+const CORRECTED: &str = "corrected,0.51,0.76,0.66,0.35,0.235,0.245,0.49\n";
 
 const TI3: &str = "\
 CTI3

@@ -1,6 +1,7 @@
 //! Search of recipes for a colour: distance, films, limits, order, progress and cancelling.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
+mod corrections;
 mod exhaustive;
 mod films;
 mod spectrum;

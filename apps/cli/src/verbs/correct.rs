@@ -1,7 +1,9 @@
 //! `impasto correct`: what to add to a pot of paint that missed its target colour.
 
 use calibrate::library::PigmentLibrary;
-use calibrate::matching::{Batch, ColorTarget, CorrectRequest, Corrections, Metric, TargetColor};
+use calibrate::matching::{
+    Batch, BatchRound, ColorTarget, CorrectRequest, Corrections, Metric, TargetColor,
+};
 use clap::{Arg, Args};
 use documents::{Task, counted, name_list};
 use serde_json::{Map, Value, json};
@@ -23,8 +25,9 @@ const NAMES: usize = 8;
 ///
 /// The batch is the paint in the pot. Give the amounts that were mixed (--made) and the measured
 /// spectrum of an opaque film. This finds additions that bring the batch within --tolerance of the
-/// target, the least paint first. It starts from the measured spectrum, not from the recipe, so that
-/// weighing errors and errors of the library at this colour do not matter.
+/// target, the least paint first. It starts from the measured spectrum, not from the recipe, and
+/// estimates what was weighed and how the paints differ from the library. For a second correction give
+/// the earlier reading (--before) and what was added after it (--added) too.
 #[derive(Debug, Args)]
 #[command(
     override_usage = "impasto correct [OPTIONS] [LIBRARY] <TARGET> <BATCH> --made <PIGMENT=GRAMS>..."
@@ -42,9 +45,15 @@ pub(crate) struct Correct {
     // After the first option of the request.
     #[arg(long, value_name = "PIGMENT=GRAMS", required = true, num_args = 1.., display_order = 0)]
     made: Vec<String>,
-    /// Grams of paint in the pot [default: the sum of --made]
+    /// Grams of paint in the pot [default: the sum of --made and --added]
     #[arg(long, value_name = "GRAMS", allow_hyphen_values = true, display_order = 1)]
     grams: Option<f64>,
+    /// Grams of a pigment that were added to the pot since the reading --before (may be repeated)
+    #[arg(long, value_name = "PIGMENT=GRAMS", num_args = 1.., display_order = 2, requires = "before")]
+    added: Vec<String>,
+    /// Reading of the pot before --added, FILE or FILE#SAMPLE
+    #[arg(long, value_name = "FILE", display_order = 3, requires = "added")]
+    before: Option<String>,
     /// Light, as in `color`, with its weight where there are several (may be repeated)
     #[arg(long, value_name = "LIGHT[=WEIGHT]", default_value = "D65")]
     illuminant: Vec<String>,
@@ -68,6 +77,8 @@ impl CommandLine for CorrectRequest {
         match key {
             "by" => without_value(option, Metric::Cie1976.name()),
             "stock" => option.value_name("PIGMENT=GRAMS").num_args(1..),
+            "strength" => option.value_name("PIGMENT=FACTOR").num_args(1..),
+            "weighing" => option.value_name("DEVIATION"),
             "only" | "without" => option.value_name("PIGMENT"),
             "at_most" => option.value_name("K"),
             "least_grams" => option.long("least").value_name("GRAMS"),
@@ -92,14 +103,22 @@ impl Correct {
         let target =
             one(target, "a target", targets(target, &self.target, &self.reading, console)?)?;
         let made = amounts("--made", &self.made)?;
-        let grams = self.grams.unwrap_or_else(|| made.iter().map(|(_, grams)| grams).sum());
-        let batch = Batch { made, grams, reflectance: self.batch_spectrum(pot, console)? };
+        let added = amounts("--added", &self.added)?;
+        let in_pot = made.iter().chain(&added).map(|(_, grams)| grams);
+        let grams = self.grams.unwrap_or_else(|| in_pot.sum());
+        let reflectance = self.batch_spectrum(pot, console)?;
+        let mut rounds = Vec::new();
+        if let Some(before) = &self.before {
+            rounds.push(BatchRound { reflectance: self.batch_spectrum(before, console)?, added });
+        }
+        let batch = Batch { made, grams, reflectance, rounds };
         let conditions =
             self.illuminant.iter().map(|text| condition(text, &self.observer, console));
         let conditions = conditions.collect::<Result<_>>()?;
         let mut request = self.request.clone();
         let stock = amounts("--stock", &request.take("stock"))?;
-        let options = CorrectRequest { conditions, stock, ..request.request()? };
+        let strength = amounts("--strength", &request.take("strength"))?;
+        let options = CorrectRequest { conditions, stock, strength, ..request.request()? };
         let found = waited("searching corrections", console, || {
             options.run(&library, &target, &batch, &Task::default())
         })?;
@@ -191,6 +210,16 @@ impl Report<'_> {
         console.line(format!("CIEDE2000 of the batch from the target: {off}"))?;
         let off = self.under(&found.recipe_delta_e);
         console.line(format!("CIEDE2000 of the batch from what its recipe predicts: {off}"))?;
+        console.line("in the pot by its readings:")?;
+        for paint in &found.pot {
+            console.line(format!(
+                "       {:>10} g  {} (made {} g, strength {:.2})",
+                shown(paint.grams),
+                self.library[paint.pigment].name,
+                shown(paint.made),
+                paint.strength,
+            ))?;
+        }
         if let Some(rms) = found.batch_rms_percent {
             console.line(format!(
                 "reflectance of the batch from the target: {rms:.2} % (root mean square)"
@@ -202,7 +231,9 @@ impl Report<'_> {
             return console
                 .line(format!("within {tolerance} {unit} of the target: nothing to add"));
         }
-        console.line(if found.reaches {
+        console.line(if found.corrections.is_empty() {
+            "no addition is likely to bring the batch nearer to the target".to_owned()
+        } else if found.reaches {
             format!("within {tolerance} {unit} of the target, the least addition first:")
         } else {
             format!("no addition comes within {tolerance} {unit} of the target; the nearest:")
@@ -212,10 +243,11 @@ impl Report<'_> {
             let rms = correction.rms_percent.map(|rms| format!("; reflectance {rms:.2} %"));
             let rms = rms.unwrap_or_default();
             console.line(format!(
-                "{:>3}  {patch}add {} g, then {} from the target{rms}",
+                "{:>3}  {patch}add {} g, then {} from the target{rms}; error to expect {:.2}",
                 rank + 1,
                 shown(correction.grams),
-                self.under(&correction.delta_e)
+                self.under(&correction.delta_e),
+                correction.expected,
             ))?;
             for (id, grams) in &correction.additions {
                 let name = &self.library[*id].name;
@@ -238,10 +270,19 @@ impl Report<'_> {
                 "additions": additions.collect::<Vec<Value>>(),
                 "delta_e": self.differences(&correction.delta_e),
                 "distance": correction.distance,
+                "expected": correction.expected,
                 "rms_percent": correction.rms_percent,
                 "lab": self.lab(&correction.lab),
                 "wavelengths_nm": self.library.grid.wavelengths_nm().collect::<Vec<f64>>(),
                 "reflectance": correction.reflectance,
+            })
+        });
+        let pot = found.pot.iter().map(|paint| {
+            json!({
+                "name": self.library[paint.pigment].name,
+                "made": paint.made,
+                "grams": paint.grams,
+                "strength": paint.strength,
             })
         });
         json!({
@@ -249,6 +290,7 @@ impl Report<'_> {
             "target_lab": self.lab(&found.target.lab),
             "batch_lab": self.lab(&found.batch),
             "batch_grams": self.grams,
+            "pot": pot.collect::<Vec<Value>>(),
             "batch_delta_e": self.differences(&found.batch_delta_e),
             "recipe_delta_e": self.differences(&found.recipe_delta_e),
             "by": self.options.metric.name(),
@@ -271,6 +313,7 @@ impl Report<'_> {
                     "pigment": self.library[*id].name,
                     "grams": grams,
                     "distance": correction.distance,
+                    "expected": correction.expected,
                 }));
             }
         }

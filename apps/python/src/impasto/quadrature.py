@@ -39,8 +39,9 @@ class Quadrature:
         mixtures: int = 1000,
         seed: int = 1,
     ) -> Quadrature:
-        """Chooses wavelengths by `gauss`, `moments`, `library` (the default with a library) or
-        `effective`, and tests them on random mixtures of the library."""
+        """Chooses wavelengths by `gauss`, `moments` (the default without a library), `library` or
+        `effective` (the default with a library), and tests them on random mixtures of the library. `about`
+        holds K and S of the pigments at the wavelengths of `effective`."""
         native = None if library is None else library._native
         request = {"method": method, "nodes": nodes, "mixtures": mixtures, "seed": seed}
         text = _native.quadrature(native, json.dumps(request), light_of(illuminant), observer)

@@ -1,48 +1,62 @@
 //! Correcting a batch of paint: you learn what to add to the pot, so that its measured colour becomes the
 //! target.
 //!
-//! A recipe predicts the K and S of the pot, but nobody weighs exactly what the recipe says. We therefore
-//! scale the predicted K at each wavelength until K / S agrees with the measured film. S stays as
-//! predicted. Then we mix the additions into this paint. The measurement already contains the errors of the
-//! recipe and of the model at the pot's colour, so only the errors of the additions remain (after Allen
-//! 1974, correction by the batch's own reflectance).
+//! A recipe predicts the K and S of the pot, but nobody weighs exactly what the recipe says, and paints differ
+//! from those of the library. We estimate from the readings of the pot which weights and which K and S are most
+//! probable, and mix additions of these paints into it. What is left between the estimate and the reading is a
+//! factor of the pot's K at each wavelength, so that it starts at its measured colour (after Allen 1974, correction
+//! by the batch's own reflectance).
 //!
-//! The search returns the smallest addition that brings the colour near enough to the target.
+//! The search returns the smallest addition that brings the colour near enough to the target, with the error to
+//! expect.
 
-use documents::{Cancelled, Task};
-use rayon::prelude::*;
+use documents::Task;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use spectra::color::{Lab, delta_e_ciede2000};
 use spectra::optics::absorption_over_scattering;
 use spectra::{Extrapolation, InterpolateError, Interpolation, Reflectance, Spectrum};
 
+use super::additions::{Addition, Additions};
 use super::forward::{Forward, Scratch};
-use super::limits::{FilmKind, MatchError, RecipeLimits, RequiredPigment};
+use super::limits::{FilmKind, MatchError, RecipeLimits};
+use super::pot::{LEAST_INTERNAL, PaintErrors, Pot, PotEstimate, PotReading};
 use super::recipe_search::spectrum_of;
 use super::request::find_all;
-use super::search::{Candidate, descend, expected, search, within_limits};
 use super::target::{ColorTarget, Metric, Target, TargetColor, ViewingCondition};
 use crate::evaluate::{Remark, check_visible_band, lab};
 use crate::least_squares::MAX_PIGMENTS;
 use crate::library::{AmountKind, Pigment, PigmentLibrary};
-use crate::recipe::PigmentId;
+use crate::recipe::{PigmentId, Recipe};
 
-/// We use no internal reflectance below this. Smaller readings say nothing about K / S.
-const LEAST_INTERNAL: f64 = 1e-4;
 /// Default difference from the target that is near enough, in CIEDE2000, or in percent of reflectance for a
 /// match by spectrum. It is about the smallest difference that you see side by side.
 pub const USUAL_CORRECTION: f64 = 0.5;
+/// Default relative standard deviation of what was weighed into a pot. We chose it by eye.
+const USUAL_WEIGHING: f64 = 0.1;
+/// Greatest deviation of what was weighed, and greatest strength of a paint.
+const MOST_FACTOR: f64 = 100.0;
 
 /// A pot of paint that you mixed and measured.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Batch {
-    /// Names of the pigments that you mixed, with their parts in any unit.
+    /// Names of the pigments that you mixed at first, with their parts in any unit.
     pub made: Vec<(String, f64)>,
-    /// Mass of the paint in the pot in grams, above 0.
+    /// Mass of the paint in the pot in grams, above 0, with all that was added.
     pub grams: f64,
     /// Measured reflectance of a film of this paint that hides.
     pub reflectance: Spectrum<Reflectance>,
+    /// Earlier readings of the pot, the first at first. Empty if you correct it for the first time.
+    pub rounds: Vec<BatchRound>,
+}
+
+/// An earlier reading of a pot, and what was added after it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BatchRound {
+    /// Measured reflectance before the addition.
+    pub reflectance: Spectrum<Reflectance>,
+    /// Names of the pigments that you added, with their grams.
+    pub added: Vec<(String, f64)>,
 }
 
 /// Options of a correction, which every program fills in its own way. [`Self::run`] searches corrections. Comments
@@ -68,6 +82,10 @@ pub struct CorrectRequest {
     pub most_grams: Option<f64>,
     /// Difference from the target that is near enough, in CIEDE2000 or, by spectrum, % of reflectance
     pub tolerance: f64,
+    /// Relative standard deviation of what was weighed into the pot. Additions count as weighed exactly
+    pub weighing: f64,
+    /// Strength of a paint of this batch relative to the library, such as 0.9 (may be repeated)
+    pub strength: Vec<(String, f64)>,
     /// Number of corrections to show
     pub count: usize,
     /// Lights under which the paint is judged, with their weights
@@ -85,6 +103,8 @@ impl Default for CorrectRequest {
             least_grams: None,
             most_grams: None,
             tolerance: USUAL_CORRECTION,
+            weighing: USUAL_WEIGHING,
+            strength: Vec::new(),
             count: 5,
             conditions: vec![ViewingCondition::default()],
         }
@@ -103,6 +123,9 @@ pub struct Correction {
     /// Weighted root mean square of `delta_e` over the lights. If you match by spectrum, root mean square
     /// of the differences of reflectance, in percent.
     pub distance: f64,
+    /// Error to expect in the unit of `distance`: its root mean square over the weights, K and S that the readings
+    /// and the standard deviations of the library leave open.
+    pub expected: f64,
     /// Root mean square of the differences of reflectance from a measured target, in percent.
     pub rms_percent: Option<f64>,
     /// Colour of the corrected paint under each light.
@@ -111,6 +134,19 @@ pub struct Correction {
     pub reflectance: Vec<f64>,
     /// Pigments of which you add the whole stock.
     pub out_of_stock: Vec<PigmentId>,
+}
+
+/// A paint of a pot, as the readings tell it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PotPaint {
+    /// The pigment.
+    pub pigment: PigmentId,
+    /// Grams that should be in the pot by its recipe and the additions.
+    pub made: f64,
+    /// Grams that probably are in it.
+    pub grams: f64,
+    /// Probable strength of the paint relative to the library.
+    pub strength: f64,
 }
 
 /// Corrections of a batch.
@@ -126,12 +162,14 @@ pub struct Corrections {
     pub batch_rms_percent: Option<f64>,
     /// CIEDE2000 of the batch from what its recipe predicts, under each light.
     pub recipe_delta_e: Vec<f64>,
+    /// What is in the pot by its readings.
+    pub pot: Vec<PotPaint>,
     /// Whether the batch is within the tolerance, so that you need not correct it.
     pub is_near: bool,
-    /// Whether the corrections bring the batch within the tolerance.
+    /// Whether the corrections bring the batch within the tolerance, as they are predicted.
     pub reaches: bool,
-    /// Corrections within the tolerance, the least addition first. If there are none, you get those that
-    /// come nearest, the nearest first. Empty if you need not correct the batch.
+    /// Corrections with an error to expect within the tolerance, or within a tenth of the least error that we found,
+    /// the least addition first. Empty if you need not correct the batch, or if no addition is likely to help.
     pub corrections: Vec<Correction>,
     /// Warnings about the spectra.
     pub remarks: Vec<Remark>,
@@ -154,6 +192,7 @@ impl CorrectRequest {
     ///     made: vec![("Zinc White".into(), 100.0), ("Cobalt Blue".into(), 12.0)],
     ///     grams: 500.0,
     ///     reflectance: paint(9.0)?.reflectance,
+    ///     rounds: Vec::new(),
     /// };
     /// let found = CorrectRequest::default().run(&oils, &standard, &batch, &Task::default())?;
     /// let least = &found.corrections[0];
@@ -177,32 +216,51 @@ impl CorrectRequest {
         if let TargetColor::Reflectance(reflectance) = &target.color {
             remarks.extend(check_visible_band(reflectance.grid())?);
         }
-        let (with_pot, predicted) = library_with_pot(library, batch)?;
+        let (paints, strengths) = self.paints(library)?;
+        let library = &paints;
+        let errors: Vec<PaintErrors> = (library.ids().zip(&strengths))
+            .map(|(pigment, strength)| PaintErrors::of(library, pigment, strength.is_some()))
+            .collect();
+        let measured = on_grid(library, &batch.reflectance)?;
+        let pot = self.pot(library, batch, &measured, &errors)?;
+        let made = pot.stated_grams();
+        let parts: Vec<_> = pot.pigments.iter().copied().zip(made.iter().copied()).collect();
+        let predicted = library.mix(&parts)?.hiding(library.saunderson);
+        let estimate = pot.estimate();
+        let with_pot = library_with_pot(library, &estimate, &measured);
+        let paints = parts.iter().zip(estimate.grams.iter().zip(&estimate.strengths));
+        let paints = paints.map(|(&(pigment, made), (&grams, strength))| PotPaint {
+            pigment,
+            made,
+            grams,
+            strength: strength * strengths[pigment.index()].unwrap_or(1.0),
+        });
         let conditions = &self.conditions;
         let spectrum = spectrum_of(target, library.grid, (self.metric, conditions), &mut remarks)?;
         let target = Target { spectrum, ..target.under(conditions)? };
-        let measured = Target::from_reflectance("batch", &batch.reflectance, conditions)?.lab;
+        let batch_lab = Target::from_reflectance("batch", &batch.reflectance, conditions)?.lab;
         let weights: Vec<_> = conditions
             .iter()
             .map(|condition| condition.viewing.weights(library.grid))
             .collect::<Result<_, _>>()?;
         let recipe: Vec<Lab> = weights.iter().map(|weights| lab(weights, &predicted)).collect();
-        let batch_delta_e = differences(&measured, &target.lab);
+        let batch_delta_e = differences(&batch_lab, &target.lab);
         let total: f64 = conditions.iter().map(|condition| condition.weight).sum();
         let squares = batch_delta_e.iter().zip(conditions).map(|(d, c)| d * d * c.weight / total);
         let batch_rms_percent = match &target.spectrum {
-            Some(spectrum) => Some(spectrum.rms_percent(on_grid(library, batch)?.values())),
+            Some(spectrum) => Some(spectrum.rms_percent(&measured)),
             None => None,
         };
         let by_spectrum = self.metric.spectrum_weights().and(batch_rms_percent);
         let off = by_spectrum.unwrap_or_else(|| squares.sum::<f64>().sqrt());
         let is_near = off <= self.tolerance;
         let mut found = Corrections {
-            recipe_delta_e: differences(&measured, &recipe),
+            recipe_delta_e: differences(&batch_lab, &recipe),
             target,
-            batch: measured,
+            batch: batch_lab,
             batch_delta_e,
             batch_rms_percent,
+            pot: paints.collect(),
             is_near,
             reaches: is_near,
             corrections: Vec::new(),
@@ -211,21 +269,18 @@ impl CorrectRequest {
         if is_near {
             return Ok(found);
         }
-        let additions = self.additions(library, &with_pot, batch.grams)?;
+        let additions = self.additions((library, &errors), (&with_pot, &estimate), batch.grams)?;
         let limits = RecipeLimits {
             metric: self.metric,
             ..RecipeLimits::new(&with_pot, conditions.clone(), FilmKind::Hiding)
         };
         let forward = Forward::new(&with_pot, &limits)?;
-        let (best, reaches) = additions.find(&forward, &found.target, task)?;
-        found.reaches = reaches;
+        let best = additions.find(&forward, &found.target, off, task)?;
+        found.reaches = best.iter().any(|addition| addition.mixture.distance <= self.tolerance);
         let corrected = best.into_iter().take(self.count);
         found.corrections = corrected
             .map(|addition| correction(&forward, &found.target, &additions, addition, batch.grams))
             .collect();
-        if found.corrections.is_empty() {
-            return Err(MatchError::NoRecipe);
-        }
         Ok(found)
     }
 
@@ -242,6 +297,7 @@ impl CorrectRequest {
             ("the least addition is above 0 g", self.least_grams, "try [least=0.1]"),
             ("the greatest addition is above 0 g", self.most_grams, "try [most=100]"),
             ("the tolerance is above 0", Some(self.tolerance), "try [tolerance=0.5]"),
+            ("the deviation of weighing is above 0", Some(self.weighing), "try [weighing=0.1]"),
         ];
         for (what, value, hint) in numbers {
             if let Some(value) = value.filter(|value| !(*value > 0.0 && *value < 1e9)) {
@@ -272,10 +328,86 @@ impl CorrectRequest {
         (self.least_grams.unwrap_or(grams / 1000.0), self.most_grams.unwrap_or(grams))
     }
 
+    /// The library with the paints of the strengths that are stated, and these by pigment.
+    fn paints(
+        &self,
+        library: &PigmentLibrary,
+    ) -> Result<(PigmentLibrary, Vec<Option<f64>>), MatchError> {
+        let mut paints = library.clone();
+        let mut strengths = vec![None; library.pigments.len()];
+        for (name, strength) in &self.strength {
+            if !(*strength > 0.0 && *strength <= MOST_FACTOR) {
+                let what = "a strength is above 0 and up to 100";
+                let hint = "try [strength=\"Cobalt Blue=0.9\"]";
+                return Err(MatchError::Number { what, value: *strength, hint });
+            }
+            let id = library.find(name)?;
+            strengths[id.index()] = Some(*strength);
+            let known = &library[id];
+            let stronger = |curve: &[f64]| curve.iter().map(|value| strength * value).collect();
+            paints[id] = Pigment {
+                absorption: stronger(&known.absorption),
+                scattering: stronger(&known.scattering),
+                absorption_sd: stronger(&known.absorption_sd),
+                scattering_sd: stronger(&known.scattering_sd),
+                ..known.clone()
+            };
+        }
+        Ok((paints, strengths))
+    }
+
+    /// The pot with all its readings. `measured` is the last one.
+    fn pot<'a>(
+        &self,
+        library: &'a PigmentLibrary,
+        batch: &Batch,
+        measured: &[f64],
+        errors: &[PaintErrors],
+    ) -> Result<Pot<'a>, MatchError> {
+        let recipe = |parts: &[(String, f64)]| {
+            library.recipe(parts.iter().map(|(name, part)| (name, *part)))
+        };
+        let made = recipe(&batch.made)?;
+        let parts = library.parts(&made)?;
+        let rounds = batch.rounds.iter().map(|round| recipe(&round.added));
+        let rounds: Vec<Recipe> = rounds.collect::<Result<_, _>>()?;
+        // Nothing need have been added between two readings.
+        for round in rounds.iter().filter(|round| !round.is_empty()) {
+            library.parts(round)?;
+        }
+        let mut pigments: Vec<PigmentId> = parts.iter().map(|(pigment, _)| *pigment).collect();
+        for pigment in rounds.iter().flat_map(Recipe::pigments) {
+            if !pigments.contains(&pigment) {
+                pigments.push(pigment);
+            }
+        }
+        let grams = batch.grams - rounds.iter().map(Recipe::total).sum::<f64>();
+        if grams <= 0.0 {
+            let what = "a pot holds more than what was added to it";
+            let hint = "state all that is in the pot: [grams=500]";
+            return Err(MatchError::Number { what, value: batch.grams, hint });
+        }
+        let mut added = vec![0.0; pigments.len()];
+        let mut readings = Vec::new();
+        for (round, more) in batch.rounds.iter().zip(&rounds) {
+            let reflectance = on_grid(library, &round.reflectance)?;
+            readings.push(PotReading { reflectance, added: added.clone() });
+            for (sum, pigment) in added.iter_mut().zip(&pigments) {
+                *sum += more.parts_of(*pigment);
+            }
+        }
+        readings.push(PotReading { reflectance: measured.to_vec(), added });
+        let made: Vec<f64> = (pigments.iter())
+            .map(|pigment| grams * made.parts_of(*pigment) / made.total())
+            .collect();
+        let errors = pigments.iter().map(|pigment| errors[pigment.index()].clone()).collect();
+        Ok(Pot { library, pigments, made, grams, weighing: self.weighing, errors, readings })
+    }
+
     fn additions<'a>(
         &'a self,
-        known: &PigmentLibrary,
-        library: &'a PigmentLibrary,
+        (known, errors): (&PigmentLibrary, &'a [PaintErrors]),
+        (library, estimate): (&'a PigmentLibrary, &'a PotEstimate),
         grams: f64,
     ) -> Result<Additions<'a>, MatchError> {
         let mut allowed = if self.only.is_empty() {
@@ -305,6 +437,8 @@ impl CorrectRequest {
         Ok(Additions {
             library,
             conditions: &self.conditions,
+            estimate,
+            errors,
             allowed,
             at_most: self.at_most,
             stock,
@@ -315,26 +449,23 @@ impl CorrectRequest {
     }
 }
 
-/// The measured batch on the library's wavelengths.
+/// A reading on the library's wavelengths.
 fn on_grid(
     library: &PigmentLibrary,
-    batch: &Batch,
-) -> Result<Spectrum<Reflectance>, InterpolateError> {
-    let method = Interpolation::best_for(batch.reflectance.grid());
-    batch.reflectance.resampled(library.grid, method, Extrapolation::Hold)
+    reflectance: &Spectrum<Reflectance>,
+) -> Result<Vec<f64>, InterpolateError> {
+    let method = Interpolation::best_for(reflectance.grid());
+    let found = reflectance.resampled(library.grid, method, Extrapolation::Hold)?;
+    Ok(found.values().to_vec())
 }
 
-/// The library with the paint in the pot as a further pigment, and the reflectance that the recipe
-/// predicts of it.
+/// The library with the paints of the pot as they probably are, and the pot itself as a further pigment.
 fn library_with_pot(
     library: &PigmentLibrary,
-    batch: &Batch,
-) -> Result<(PigmentLibrary, Vec<f64>), MatchError> {
-    let recipe = library.recipe(batch.made.iter().map(|(name, part)| (name, *part)))?;
-    let curves = library.mix(&recipe)?;
-    let measured = on_grid(library, batch)?;
-    let scattering = curves.scattering.clone();
-    let absorption = measured.values().iter().zip(&scattering).map(|(&reading, s)| {
+    estimate: &PotEstimate,
+    measured: &[f64],
+) -> PigmentLibrary {
+    let absorption = measured.iter().zip(&estimate.scattering).map(|(&reading, s)| {
         let internal = library.saunderson.internal_from_measured(reading).unwrap_or(0.0);
         s * absorption_over_scattering(internal.clamp(LEAST_INTERNAL, 1.0))
     });
@@ -342,7 +473,7 @@ fn library_with_pot(
         name: "the batch".to_owned(),
         color_index: None,
         absorption: absorption.collect(),
-        scattering,
+        scattering: estimate.scattering.clone(),
         absorption_sd: Vec::new(),
         scattering_sd: Vec::new(),
         identified: true,
@@ -351,8 +482,12 @@ fn library_with_pot(
         notes: Vec::new(),
     };
     let mut with_pot = library.clone();
+    for (pigment, [absorption, scattering]) in estimate.pigments.iter().zip(&estimate.paints) {
+        with_pot[*pigment].absorption.clone_from(absorption);
+        with_pot[*pigment].scattering.clone_from(scattering);
+    }
     with_pot.pigments.push(pot);
-    Ok((with_pot, curves.hiding(library.saunderson)))
+    with_pot
 }
 
 fn differences(found: &[Lab], wanted: &[Lab]) -> Vec<f64> {
@@ -369,7 +504,7 @@ fn correction(
     /// We count the whole stock as used if an amount differs from it by at most this fraction.
     const AT_LIMIT: f64 = 1e-6;
     let total = addition.total() * grams;
-    let Addition { mut amounts, mixture } = addition;
+    let Addition { mut amounts, mixture, expected } = addition;
     amounts.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut scratch = Scratch::default();
     let reflectance = forward.reflectance(&mixture.pigments, &mixture.shares, 1.0, &mut scratch);
@@ -386,271 +521,18 @@ fn correction(
         grams: total,
         delta_e: labs.iter().zip(&target.lab).map(|(f, w)| delta_e_ciede2000(*w, *f)).collect(),
         distance: mixture.distance,
+        expected,
         rms_percent: target.spectrum.as_ref().map(|wanted| wanted.rms_percent(&reflectance)),
         lab: labs,
         reflectance,
     }
 }
 
-/// We search the least addition for at most this many sets of pigments.
-const MOST_SETS: usize = 400;
-/// We try this many amounts between the least and the greatest, in equal ratios. We chose it by eye.
-const AMOUNTS: usize = 24;
-/// We halve the last ratio of amounts this often, down to about 0.1 % of the amount.
-const HALVINGS: usize = 9;
-
-/// Limits of an addition to a pot. We give amounts as fractions of the paint in the pot.
-pub(super) struct Additions<'a> {
-    /// The library, with the paint in the pot as its last pigment.
-    pub(super) library: &'a PigmentLibrary,
-    pub(super) conditions: &'a [ViewingCondition],
-    /// Pigments that you may add.
-    pub(super) allowed: Vec<PigmentId>,
-    /// Most pigments to add, 1 to 7.
-    pub(super) at_most: usize,
-    /// Greatest amount of each pigment of the library, infinite without a limit.
-    pub(super) stock: Vec<f64>,
-    /// Least amount of one pigment that you can weigh, above 0.
-    pub(super) least: f64,
-    /// Greatest sum of all additions.
-    pub(super) most: f64,
-    /// Difference from the target that is near enough.
-    pub(super) tolerance: f64,
-}
-
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Addition {
-    /// Pigments in rising order, each with its amount as a fraction of the paint in the pot.
-    pub(super) amounts: Vec<(PigmentId, f64)>,
-    /// The mixture of pot and addition.
-    pub(super) mixture: Candidate,
-}
-
-impl Addition {
-    pub(super) fn total(&self) -> f64 {
-        self.amounts.iter().map(|(_, amount)| amount).sum()
-    }
-}
-
-impl Additions<'_> {
-    fn pot(&self) -> PigmentId {
-        PigmentId(self.library.pigments.len() - 1)
-    }
-
-    /// Limits of mixtures of the pot with additions, `share` of which is the pot.
-    fn limits(&self, share: Option<f64>) -> RecipeLimits {
-        let usual = RecipeLimits::new(self.library, self.conditions.to_vec(), FilmKind::Hiding);
-        let pot = self.pot();
-        let mut allowed = self.allowed.clone();
-        allowed.push(pot);
-        // The share of an addition is largest if nothing else is added to the pot.
-        let mut amounts: Vec<Option<[f64; 2]>> = self
-            .stock
-            .iter()
-            .map(|stock| {
-                let limit = match share {
-                    Some(share) => stock * share,
-                    None if stock.is_finite() => stock / (1.0 + stock),
-                    None => 1.0,
-                };
-                Some([0.0, limit.min(1.0)])
-            })
-            .collect();
-        amounts.push(None);
-        RecipeLimits {
-            allowed,
-            required: vec![RequiredPigment { pigment: pot, share }],
-            at_most: self.at_most + 1,
-            least_share: 0.0,
-            amounts,
-            tolerance: self.tolerance,
-            ..usual
-        }
-    }
-
-    /// The additions of each set of pigments that come within the tolerance, the least first. If none does,
-    /// you get those that come nearest, the nearest first.
-    pub(super) fn find(
-        &self,
-        forward: &Forward<'_>,
-        target: &Target,
-        task: &Task,
-    ) -> Result<(Vec<Addition>, bool), Cancelled> {
-        let whole = self.limits(None);
-        let found = search(forward, &whole, target, &task.steps(expected(&whole)));
-        task.check()?;
-        let mut sets: Vec<Candidate> = found.into_iter().filter(|c| c.pigments.len() > 1).collect();
-        let near = sets.iter().filter(|set| set.distance <= self.tolerance).count();
-
-        if near > 0 {
-            sets[..near].sort_by(|a, b| {
-                (1.0 - a.share(self.pot())).total_cmp(&(1.0 - b.share(self.pot())))
-            });
-        }
-        sets.truncate(MOST_SETS);
-        let mut additions: Vec<Addition> = sets
-            .par_iter()
-            .map_init(Scratch::default, |scratch, set| match task.is_cancelled() {
-                true => None,
-                false => self.of_set(forward, target, &set.pigments, scratch),
-            })
-            .flatten()
-            .collect();
-        task.check()?;
-
-        let reaches = additions.iter().any(|addition| addition.mixture.distance <= self.tolerance);
-        if reaches {
-            additions.retain(|addition| addition.mixture.distance <= self.tolerance);
-            additions.sort_by(|a, b| a.total().total_cmp(&b.total()));
-        } else {
-            additions.sort_by(|a, b| a.mixture.distance.total_cmp(&b.mixture.distance));
-        }
-        Ok((without_needless(additions, reaches), reaches))
-    }
-
-    /// The least addition of one set of pigments, the pot among them, or the nearest if none is near enough.
-    fn of_set(
-        &self,
-        forward: &Forward<'_>,
-        target: &Target,
-        set: &[PigmentId],
-        scratch: &mut Scratch,
-    ) -> Option<Addition> {
-        let mut at = |added: f64, near: Option<&Candidate>| {
-            self.of_amount(forward, target, set, added, near, scratch)
-        };
-        let stock = set.iter().filter_map(|pigment| self.stock.get(pigment.index()));
-        let most = self.most.min(stock.sum());
-        if most < self.least {
-            return None;
-        }
-        let ratio = (most / self.least).powf(1.0 / AMOUNTS as f64);
-        let mut nearest: Option<(f64, Candidate)> = None;
-        let mut before = None;
-        for step in 0..=AMOUNTS {
-            let added = self.least * (most / self.least).powf(step as f64 / AMOUNTS as f64);
-            let known = nearest.as_ref().map(|(_, candidate)| candidate);
-            let Some(found) = at(added, known) else { continue };
-            if found.distance <= self.tolerance {
-                let least = least_between(before, (added, found), self.tolerance, &mut at);
-                return self.addition(least);
-            }
-            before = Some(added);
-            if nearest.as_ref().is_none_or(|(_, known)| found.distance < known.distance) {
-                nearest = Some((added, found));
-            }
-        }
-        let (mut added, mut best) = nearest?;
-        let mut step = ratio.sqrt();
-        for _ in 0..HALVINGS {
-            for tried in [added * step, added / step] {
-                let tried = tried.clamp(self.least, most);
-                if let Some(found) = at(tried, Some(&best))
-                    && found.distance < best.distance
-                {
-                    (added, best) = (tried, found);
-                }
-            }
-            if best.distance <= self.tolerance {
-                break;
-            }
-            step = step.sqrt();
-        }
-        self.addition(best)
-    }
-
-    /// The mixture nearest to the target in which the sum of all additions is `added`. `None` if the stock
-    /// does not suffice.
-    fn of_amount(
-        &self,
-        forward: &Forward<'_>,
-        target: &Target,
-        set: &[PigmentId],
-        added: f64,
-        near: Option<&Candidate>,
-        scratch: &mut Scratch,
-    ) -> Option<Candidate> {
-        let share = 1.0 / (1.0 + added);
-        let limits = self.limits(Some(share));
-        let others = (set.len() - 1) as f64;
-        let start = Candidate {
-            pigments: set.to_vec(),
-            shares: set
-                .iter()
-                .map(|&pigment| {
-                    let known =
-                        near.map(|near| near.share(pigment) / (1.0 - near.share(self.pot())));
-                    let part = known.unwrap_or(1.0 / others);
-                    if pigment == self.pot() { share } else { part * (1.0 - share) }
-                })
-                .collect(),
-            thickness: 1.0,
-            distance: f64::INFINITY,
-        };
-        let start = within_limits(&limits, &start)?;
-        descend(forward, &limits, target, &start, scratch)
-    }
-
-    /// The addition in a mixture. `None` if it has less of a pigment than you can weigh.
-    fn addition(&self, mixture: Candidate) -> Option<Addition> {
-        let pot = mixture.share(self.pot());
-        let amounts: Vec<(PigmentId, f64)> = mixture
-            .pigments
-            .iter()
-            .zip(&mixture.shares)
-            .filter(|(pigment, _)| **pigment != self.pot())
-            .map(|(&pigment, share)| (pigment, share / pot))
-            .collect();
-        // We search a smaller set without this pigment by itself.
-        let is_whole = amounts.iter().all(|(_, amount)| *amount >= self.least * (1.0 - 1e-6));
-        is_whole.then_some(Addition { amounts, mixture })
-    }
-}
-
-/// The mixture with the least addition between `before`, which is too little, and `enough`.
-fn least_between(
-    before: Option<f64>,
-    (mut enough, mut mixture): (f64, Candidate),
-    tolerance: f64,
-    at: &mut impl FnMut(f64, Option<&Candidate>) -> Option<Candidate>,
-) -> Candidate {
-    let Some(mut little) = before else { return mixture };
-    for _ in 0..HALVINGS {
-        let middle = (little * enough).sqrt();
-        match at(middle, Some(&mixture)) {
-            Some(found) if found.distance <= tolerance => (enough, mixture) = (middle, found),
-            _ => little = middle,
-        }
-    }
-    mixture
-}
-
-/// Drops additions that need further pigments and are hardly better than another one.
-fn without_needless(additions: Vec<Addition>, reaches: bool) -> Vec<Addition> {
-    /// You do not weigh a further pigment for a gain below this fraction. We chose it by eye.
-    const LEAST_GAIN: f64 = 0.02;
-
-    let needed = additions.iter().filter(|addition| {
-        !additions.iter().any(|other| {
-            other.amounts.len() < addition.amounts.len()
-                && other
-                    .amounts
-                    .iter()
-                    .all(|(pigment, _)| addition.amounts.iter().any(|(known, _)| known == pigment))
-                && effort(reaches, other) <= effort(reaches, addition) * (1.0 + LEAST_GAIN)
-        })
-    });
-    needed.cloned().collect()
-}
-
-fn effort(reaches: bool, addition: &Addition) -> f64 {
-    if reaches { addition.total() } else { addition.mixture.distance }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::evaluate::Viewing;
+    use documents::Cancelled;
 
     #[test]
     fn a_cancelled_task_ends_a_correction() {
@@ -661,7 +543,7 @@ mod tests {
         });
         let target = ColorTarget::measured("standard", standard);
         let made = vec![("Zinc White".to_owned(), 100.0), ("Cobalt Blue".to_owned(), 12.0)];
-        let batch = Batch { made, grams: 500.0, reflectance: painted };
+        let batch = Batch { made, grams: 500.0, reflectance: painted, rounds: Vec::new() };
         let request = CorrectRequest { at_most: 1, ..CorrectRequest::default() };
         let task = Task::default();
         let found = request.run(&oils, &target, &batch, &task).unwrap();

@@ -31,6 +31,13 @@ pub(super) struct Scratch {
     by_unknown: Vec<f64>,
 }
 
+/// Derivatives of one residual of a target with respect to K and S of a mixture at each wavelength.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Slopes {
+    pub(super) over_absorption: Vec<f64>,
+    pub(super) over_scattering: Vec<f64>,
+}
+
 impl<'a> Forward<'a> {
     pub(super) fn new(
         library: &'a PigmentLibrary,
@@ -202,6 +209,46 @@ impl<'a> Forward<'a> {
             }
         }
         cost
+    }
+}
+
+impl Forward<'_> {
+    /// Derivatives of all residuals of a mixture that hides. Their sum of squares is the square of
+    /// [`Self::distance`].
+    pub(super) fn slopes(
+        &self,
+        target: &Target,
+        pigments: &[PigmentId],
+        shares: &[f64],
+        scratch: &mut Scratch,
+    ) -> Vec<Slopes> {
+        self.reflect(pigments, shares, 1.0, scratch);
+        let Scratch { reflectance, over_absorption, over_scattering, .. } = scratch;
+        let row = |of_reflectance: &dyn Fn(usize) -> f64| {
+            let along = |over: &[f64]| {
+                over.iter().enumerate().map(|(at, slope)| of_reflectance(at) * slope).collect()
+            };
+            Slopes {
+                over_absorption: along(over_absorption),
+                over_scattering: along(over_scattering),
+            }
+        };
+        if self.metric.spectrum_weights().is_some() {
+            let roots = spectrum_of(target).roots_percent();
+            let each = roots.iter().enumerate().filter(|(_, root)| **root > 0.0);
+            return each
+                .map(|(node, root)| row(&|at| if at == node { *root } else { 0.0 }))
+                .collect();
+        }
+        let mut rows = Vec::new();
+        for ((weights, root), &wanted) in self.weights.iter().zip(&self.roots).zip(&target.lab) {
+            let xyz = weights.xyz(reflectance);
+            let (_, over_xyz) = residuals_with_slopes(self.metric, wanted, xyz, weights.white());
+            rows.extend(over_xyz.iter().map(|over| {
+                row(&|at| root * (0..3).map(|c| over[c] * weights.weights()[at][c]).sum::<f64>())
+            }));
+        }
+        rows
     }
 }
 

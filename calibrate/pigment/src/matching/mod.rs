@@ -13,10 +13,14 @@ mod search;
 mod ranking;
 mod request;
 mod recipe_search;
+mod pot;
+mod additions;
 mod correction;
 
 pub use super::least_squares::{Bounds, Cost, MAX_PIGMENTS, UNKNOWNS, descend_within_bounds};
-pub use correction::{Batch, CorrectRequest, Correction, Corrections, USUAL_CORRECTION};
+pub use correction::{
+    Batch, BatchRound, CorrectRequest, Correction, Corrections, PotPaint, USUAL_CORRECTION,
+};
 pub use limits::{
     FilmKind, MatchError, RecipeLimits, RequiredPigment, Thickness, USUAL_SPECTRUM_TOLERANCE,
     USUAL_TOLERANCE,

@@ -204,6 +204,11 @@ impl SpectralTarget {
         PERCENT * squares.sum::<f64>().sqrt()
     }
 
+    /// Factor of each difference of reflectance in [`Self::rms_percent`].
+    pub(super) fn roots_percent(&self) -> Vec<f64> {
+        self.weights.iter().map(|weight| PERCENT * weight.sqrt()).collect()
+    }
+
     /// Half the square of [`Self::rms_percent`] of `found`, with its derivatives. `by_unknown` holds the
     /// derivatives of `found` with respect to each unknown, one unknown after the other.
     pub(super) fn cost(&self, found: &[f64], by_unknown: &[f64]) -> Cost {

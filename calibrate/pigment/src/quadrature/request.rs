@@ -34,7 +34,7 @@ pub enum QuadratureChoice {
 #[serde(default, deny_unknown_fields)]
 #[schemars(description = "Options of a quadrature")]
 pub struct QuadratureRequest {
-    /// Method of choosing the wavelengths [default: library where one is given, else moments]
+    /// Method of choosing the wavelengths [default: effective where a library is given, else moments]
     pub method: Option<QuadratureChoice>,
     /// Number of wavelengths, 1 to 32
     pub nodes: usize,
@@ -102,7 +102,7 @@ impl QuadratureRequest {
     ) -> Result<QuadratureOutcome, QuadratureFailure> {
         let Self { viewing, nodes, .. } = self;
         let method = self.method.unwrap_or(match library {
-            Some(_) => QuadratureChoice::Library,
+            Some(_) => QuadratureChoice::Effective,
             None => QuadratureChoice::Moments,
         });
         let rule = match (method, library) {
