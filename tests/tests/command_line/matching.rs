@@ -416,7 +416,7 @@ fn a_batch_that_lacks_blue_is_told_how_much() {
     assert_eq!(run.status, 0, "{}", run.err);
     assert!(run.out.contains("no addition comes within 0.5 CIEDE2000"), "{}", run.out);
     assert!(run.out.contains("(all that is in stock)"), "{}", run.out);
-    let near = [&["correct", &library, &standard, &standard], &made[..]].concat();
+    let near = [&["correct", &library, &standard, &standard], &all[4..]].concat();
     assert!(impasto(&near).out.contains("nothing to add"));
 }
 
