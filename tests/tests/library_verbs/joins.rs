@@ -272,7 +272,7 @@ fn the_oils_are_sound_with_known_doubts() {
     assert_eq!(found["faults"], Value::Array(vec![]));
     assert_eq!(found["evidence"]["worst"][0]["sample"], "17D");
     let warnings = found["warnings"].to_string();
-    for word in ["Zinc White (linseed)", "as dark as the surface"] {
+    for word in ["Zinc White (linseed)", "Chrome Yellow (poppyseed)"] {
         assert!(warnings.contains(word), "{word}: {warnings}");
     }
     assert!(!warnings.contains("licence") && !warnings.contains("jumps"), "{warnings}");
