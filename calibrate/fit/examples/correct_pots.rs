@@ -72,12 +72,16 @@ fn halves(
         .collect();
     // Mixtures of the same paints go to both halves.
     mixtures.sort();
-    let library = |half: usize| {
+    let mut libraries = Vec::new();
+    for half in [0, 1] {
         let other = mixtures.iter().skip(half).step_by(2);
         let exclude = other.map(|(_, _, sample)| sample.clone()).collect();
-        calibrate::fit(readings, &FitRequest { exclude, ..FitRequest::default() })
-    };
-    Ok((library(0)?.library, library(1)?.library))
+        let fit = calibrate::fit(readings, &FitRequest { exclude, ..FitRequest::default() })?;
+        libraries.push(fit.library);
+    }
+    let second = libraries.pop().ok_or("two halves are fitted")?;
+    let first = libraries.pop().ok_or("two halves are fitted")?;
+    Ok((first, second))
 }
 
 struct Trial<'a> {
@@ -140,12 +144,12 @@ impl Trial<'_> {
     /// White and one to three other paints that both libraries know.
     fn recipe(&self, random: &mut ChaCha8Rng) -> Parts {
         let white = self.library.reference.clone().unwrap_or_default();
-        let known = |name: &str| {
-            let real = self.reality.pigments.iter().find(|pigment| pigment.name == name);
-            real.is_some_and(|pigment| pigment.identified)
-        };
+        let real = self.reality.pigments.iter().filter(|pigment| pigment.identified);
+        let known: Vec<&str> = real.map(|pigment| pigment.name.as_str()).collect();
         let others: Vec<&str> = (self.library.pigments.iter())
-            .filter(|pigment| pigment.identified && pigment.name != white && known(&pigment.name))
+            .filter(|pigment| {
+                pigment.identified && pigment.name != white && known.contains(&&*pigment.name)
+            })
             .map(|pigment| pigment.name.as_str())
             .collect();
         let count = random.random_range(1..=3);
@@ -208,19 +212,21 @@ fn apart(a: &Spectrum<Reflectance>, b: &Spectrum<Reflectance>) -> f64 {
     delta_e_ciede2000(a, b)
 }
 
+fn mean(pots: &[&Outcome], of: fn(&Outcome) -> f64) -> f64 {
+    pots.iter().map(|pot| of(pot)).sum::<f64>() / pots.len() as f64
+}
+
 fn summary(pots: &[&Outcome]) -> String {
-    let count = pots.len() as f64;
-    let mean = |of: fn(&Outcome) -> f64| pots.iter().map(|pot| of(pot)).sum::<f64>() / count;
     let worse: Vec<&&Outcome> = pots.iter().filter(|pot| pot.after > pot.before + 0.05).collect();
     let largest = pots.iter().map(|pot| pot.after).fold(0.0, f64::max);
     format!(
         "{:.2} -> {:.2}, largest {largest:.2}, predicted {:.2}, expected {:.2}, worse {}, foreign {}, {:.0} g",
-        mean(|pot| pot.before),
-        mean(|pot| pot.after),
-        mean(|pot| pot.predicted),
-        mean(|pot| pot.expected),
+        mean(pots, |pot| pot.before),
+        mean(pots, |pot| pot.after),
+        mean(pots, |pot| pot.predicted),
+        mean(pots, |pot| pot.expected),
         worse.len(),
         pots.iter().filter(|pot| pot.foreign).count(),
-        mean(|pot| pot.grams),
+        mean(pots, |pot| pot.grams),
     )
 }

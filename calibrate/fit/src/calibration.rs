@@ -153,7 +153,11 @@ pub(crate) fn pigment(name: &str, curves: &Curves, deviations: Option<&Curves>) 
 }
 
 fn rounded_values(curve: &[f64]) -> Vec<f64> {
-    curve.iter().map(|&value| rounded(value)).collect()
+    multiple(curve, 1.0)
+}
+
+fn multiple(curve: &[f64], factor: f64) -> Vec<f64> {
+    curve.iter().map(|&value| rounded(factor * value)).collect()
 }
 
 pub(crate) fn solve(
@@ -210,17 +214,14 @@ fn masstone(set: &SwatchSet, observations: &[Observation], lone: &Unidentified) 
     let weights = Viewing::default().weights(set.grid).expect("the method fits the grid");
     let luminance = weights.xyz(&sample.as_read).y / weights.white().y;
     let scattering = luminance.clamp(LEAST_LUMINANCE, 1.0).sqrt();
-    let curve = |values: &[f64], factor: f64| -> Vec<f64> {
-        values.iter().map(|value| rounded(value * factor)).collect()
-    };
     let ones = vec![1.0; sample.ratio.len()];
     Pigment {
         name: set.pigments[lone.pigment.index()].clone(),
         color_index: None,
-        absorption: curve(&sample.ratio, scattering),
-        scattering: curve(&ones, scattering),
-        absorption_sd: curve(&sample.ratio, scattering * MASSTONE_DEVIATION),
-        scattering_sd: curve(&ones, scattering * MASSTONE_DEVIATION),
+        absorption: multiple(&sample.ratio, scattering),
+        scattering: multiple(&ones, scattering),
+        absorption_sd: multiple(&sample.ratio, scattering * MASSTONE_DEVIATION),
+        scattering_sd: multiple(&ones, scattering * MASSTONE_DEVIATION),
         identified: false,
         guessed: false,
         measured_amounts: None,

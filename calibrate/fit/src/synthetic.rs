@@ -98,17 +98,18 @@ impl SyntheticMixtures {
         let black = pigments - 1;
         let mut swatches = vec![vec![(0, 1.0)]];
         for p in 1..pigments {
-            let tint = |share: f64| vec![(0, 1.0 - share), (p, share)];
-            let shades =
-                [vec![(p, 0.9), (black, 0.1)], vec![(0, 0.475), (p, 0.475), (black, 0.05)]];
-            match kind {
-                SwatchKind::Tints => swatches.extend([0.02, 0.06, 0.2, 0.5].map(tint)),
-                SwatchKind::TintsAndShades => {
-                    swatches.push(vec![(p, 1.0)]);
-                    swatches.extend([0.05, 0.2, 0.5].map(tint));
-                    swatches.extend(shades.into_iter().filter(|_| p != black));
-                }
-                SwatchKind::MasstonesAndTints => swatches.extend([vec![(p, 1.0)], tint(0.2)]),
+            let tints: &[f64] = match kind {
+                SwatchKind::Tints => &[0.02, 0.06, 0.2, 0.5],
+                SwatchKind::TintsAndShades => &[0.05, 0.2, 0.5],
+                SwatchKind::MasstonesAndTints => &[0.2],
+            };
+            if kind != SwatchKind::Tints {
+                swatches.push(vec![(p, 1.0)]);
+            }
+            swatches.extend(tints.iter().map(|&share| vec![(0, 1.0 - share), (p, share)]));
+            if kind == SwatchKind::TintsAndShades && p != black {
+                swatches.push(vec![(p, 0.9), (black, 0.1)]);
+                swatches.push(vec![(0, 0.475), (p, 0.475), (black, 0.05)]);
             }
         }
         let grid = curves[0].grid;

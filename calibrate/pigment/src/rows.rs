@@ -32,16 +32,16 @@ pub fn csv_of(rows: &[Value]) -> String {
         }
     }
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let mut write = |record: &[&str]| {
-        writer.write_record(record).expect("rows have one length, and memory can be written");
-    };
-    write(&headings);
+    let mut records = vec![headings.clone()];
     for row in &rows {
         let cells = headings.iter().map(|heading| {
             let cell = row.iter().find(|(name, _)| name == heading);
             cell.map_or("", |(_, cell)| cell)
         });
-        write(&cells.collect::<Vec<_>>());
+        records.push(cells.collect());
+    }
+    for record in records {
+        writer.write_record(record).expect("rows have one length, and memory can be written");
     }
     let table = writer.into_inner().expect("memory can be written");
     String::from_utf8(table).expect("cells are text")

@@ -37,15 +37,16 @@ fn tints_alone_with_errors_of_weighing_predict_unseen_mixtures() {
     assert!(mean < 2.75, "{mean}");
 }
 
+/// Least and median fraction of S that is known from swatches of random paints.
+fn known(kind: SwatchKind, errors: SwatchErrors) -> (f64, f64) {
+    let mut known = fitted(&swatches(kind, errors, 1), true).scattering_known;
+    assert_eq!(known.remove(0), 1.0, "S of the white is 1");
+    known.sort_by(f64::total_cmp);
+    (known[0], known[known.len() / 2])
+}
+
 #[test]
 fn shades_and_exact_scales_make_scattering_known() {
-    let known = |kind, errors| {
-        let made = swatches(kind, errors, 1);
-        let mut known = fitted(&made, true).scattering_known;
-        assert_eq!(known.remove(0), 1.0, "S of the white is 1");
-        known.sort_by(f64::total_cmp);
-        (known[0], known[known.len() / 2])
-    };
     let (least_of_rough, rough) = known(SwatchKind::Tints, ROUGH);
     let (least_of_exact, exact) = known(SwatchKind::TintsAndShades, EXACT);
     assert!(rough < 0.997 && least_of_rough < 0.97, "{rough} {least_of_rough}");

@@ -32,7 +32,7 @@ pub(super) struct Additions<'a> {
     /// The library, with the paint in the pot as its last pigment.
     pub(super) library: &'a PigmentLibrary,
     pub(super) conditions: &'a [ViewingCondition],
-    /// What the pot is.
+    /// The pot by its readings.
     pub(super) estimate: &'a PotEstimate,
     /// Errors of the pigments of the library.
     pub(super) errors: &'a [PaintErrors],
@@ -160,11 +160,12 @@ impl Additions<'_> {
         near: f64,
         (forward, target): (&Forward<'_>, &Target),
     ) -> Vec<Addition> {
-        let is_near = |step: &Addition| step.expected <= near;
-        let reaches = |step: &Addition| step.mixture.distance <= self.tolerance;
-        let all_steps = || ladders.iter().flat_map(|ladder| ladder.up_to(most));
-        let can_reach = all_steps().any(|step| is_near(step) && reaches(step));
-        let is_enough = |step: &Addition| is_near(step) && (reaches(step) || !can_reach);
+        let mut all_steps = ladders.iter().flat_map(|ladder| ladder.up_to(most));
+        let can_reach =
+            all_steps.any(|step| step.expected <= near && step.mixture.distance <= self.tolerance);
+        let is_enough = |step: &Addition| {
+            step.expected <= near && (step.mixture.distance <= self.tolerance || !can_reach)
+        };
         let additions = ladders.par_iter().map_init(Scratch::default, |scratch, ladder| {
             let steps: Vec<&Addition> = ladder.up_to(most).collect();
             let first = steps.iter().position(|step| is_enough(step))?;

@@ -139,7 +139,7 @@ pub struct Correction {
 /// A paint of a pot, as the readings tell it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PotPaint {
-    /// The pigment.
+    /// Its index in the library.
     pub pigment: PigmentId,
     /// Grams that should be in the pot by its recipe and the additions.
     pub made: f64,
@@ -162,7 +162,7 @@ pub struct Corrections {
     pub batch_rms_percent: Option<f64>,
     /// CIEDE2000 of the batch from what its recipe predicts, under each light.
     pub recipe_delta_e: Vec<f64>,
-    /// What is in the pot by its readings.
+    /// Content of the pot by its readings.
     pub pot: Vec<PotPaint>,
     /// Whether the batch is within the tolerance, so that you need not correct it.
     pub is_near: bool,
@@ -247,10 +247,8 @@ impl CorrectRequest {
         let batch_delta_e = differences(&batch_lab, &target.lab);
         let total: f64 = conditions.iter().map(|condition| condition.weight).sum();
         let squares = batch_delta_e.iter().zip(conditions).map(|(d, c)| d * d * c.weight / total);
-        let batch_rms_percent = match &target.spectrum {
-            Some(spectrum) => Some(spectrum.rms_percent(&measured)),
-            None => None,
-        };
+        let batch_rms_percent =
+            target.spectrum.as_ref().map(|spectrum| spectrum.rms_percent(&measured));
         let by_spectrum = self.metric.spectrum_weights().and(batch_rms_percent);
         let off = by_spectrum.unwrap_or_else(|| squares.sum::<f64>().sqrt());
         let is_near = off <= self.tolerance;

@@ -1,4 +1,4 @@
-//! What a pot of paint is by its readings: the amounts that were weighed, and K and S of the paints in it.
+//! Estimate of what a pot of paint is by its readings: the amounts that were weighed, and K and S of the paints in it.
 //!
 //! A pot differs from what its recipe predicts because nobody weighs exactly, and because its paints are not quite
 //! those of the library. The two need different corrections. More of a paint that was forgotten helps; but if the
@@ -45,7 +45,7 @@ const STEPS: usize = 12;
 pub(super) struct PotReading {
     /// Measured reflectance on the library's grid.
     pub(super) reflectance: Vec<f64>,
-    /// What was added before, in grams, by pigment of the pot.
+    /// Additions so far, in grams, by pigment of the pot.
     pub(super) added: Vec<f64>,
 }
 
@@ -426,10 +426,9 @@ mod tests {
 
     #[test]
     fn a_wrong_weight_is_found_if_the_strength_is_stated_and_the_other_way_round() {
-        let pot = || vec![reading([430.0, 70.0], 1.0, [0.0; 2])];
-        let weighed = estimate(pot(), 0.3, true);
+        let weighed = estimate(vec![reading([430.0, 70.0], 1.0, [0.0; 2])], 0.3, true);
         assert!((weighed.grams[1] - 70.0).abs() < 2.0, "{:?}", weighed.grams);
-        let exact = estimate(pot(), 1e-3, false);
+        let exact = estimate(vec![reading([430.0, 70.0], 1.0, [0.0; 2])], 1e-3, false);
         assert!((exact.grams[1] - 60.0).abs() < 0.1, "{:?}", exact.grams);
         // The paints explain the reading instead, so that more of them does not change the pot.
         let (oils, _) = oils();
@@ -446,10 +445,12 @@ mod tests {
 
     #[test]
     fn a_second_reading_tells_strength_from_weight() {
-        let first = || reading(MADE, 1.3, [0.0; 2]);
-        let more = || reading(MADE, 1.3, [0.0, 60.0]);
-        let once = estimate(vec![first()], 0.1, false).strengths[1];
-        let twice = estimate(vec![first(), more()], 0.1, false);
+        let [once, twice] = [1, 2].map(|count| {
+            let added = [0.0, 60.0].into_iter().take(count);
+            let readings = added.map(|added| reading(MADE, 1.3, [0.0, added]));
+            estimate(readings.collect(), 0.1, false)
+        });
+        let once = once.strengths[1];
         assert!((twice.strengths[1] - 1.3).abs() < (once - 1.3).abs() - 0.02, "{once} {twice:?}");
         assert!(twice.grams[1] > 110.0, "{:?}", twice.grams);
     }
