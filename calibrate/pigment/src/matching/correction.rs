@@ -342,14 +342,11 @@ impl CorrectRequest {
             let id = library.find(name)?;
             strengths[id.index()] = Some(*strength);
             let known = &library[id];
-            let stronger = |curve: &[f64]| curve.iter().map(|value| strength * value).collect();
-            paints[id] = Pigment {
-                absorption: stronger(&known.absorption),
-                scattering: stronger(&known.scattering),
-                absorption_sd: stronger(&known.absorption_sd),
-                scattering_sd: stronger(&known.scattering_sd),
-                ..known.clone()
-            };
+            let [absorption, scattering, absorption_sd, scattering_sd] =
+                [&known.absorption, &known.scattering, &known.absorption_sd, &known.scattering_sd]
+                    .map(|curve| curve.iter().map(|value| strength * value).collect());
+            paints[id] =
+                Pigment { absorption, scattering, absorption_sd, scattering_sd, ..known.clone() };
         }
         Ok((paints, strengths))
     }
@@ -362,12 +359,10 @@ impl CorrectRequest {
         measured: &[f64],
         errors: &[PaintErrors],
     ) -> Result<Pot<'a>, MatchError> {
-        let recipe = |parts: &[(String, f64)]| {
-            library.recipe(parts.iter().map(|(name, part)| (name, *part)))
-        };
-        let made = recipe(&batch.made)?;
+        let made = library.recipe(batch.made.iter().map(|(name, part)| (name, *part)))?;
         let parts = library.parts(&made)?;
-        let rounds = batch.rounds.iter().map(|round| recipe(&round.added));
+        let added = batch.rounds.iter().map(|round| &round.added);
+        let rounds = added.map(|parts| library.recipe(parts.iter().map(|(n, part)| (n, *part))));
         let rounds: Vec<Recipe> = rounds.collect::<Result<_, _>>()?;
         // Nothing need have been added between two readings.
         for round in rounds.iter().filter(|round| !round.is_empty()) {

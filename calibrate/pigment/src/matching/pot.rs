@@ -65,14 +65,14 @@ impl PaintErrors {
         let by_error = library
             .mean_error()
             .map_or(UNKNOWN, |error| (OF_AN_ERROR * error).clamp(BY_ERROR[0], BY_ERROR[1]));
-        let all = |deviation: f64| deviation.hypot(by_error).min(GREATEST);
         let [k, s] = [
             (&pigment.absorption, &pigment.absorption_sd),
             (&pigment.scattering, &pigment.scattering_sd),
         ]
         .map(|(curve, sd): (&Vec<f64>, &Vec<f64>)| relative(curve, sd, pigment));
         let strength = median(&k).min(median(&s));
-        let strength_sd = if stated { STATED_STRENGTH } else { all(strength) };
+        let strength_sd =
+            if stated { STATED_STRENGTH } else { strength.hypot(by_error).min(GREATEST) };
         let nodes = Nodes::over(&wavelengths_nm);
         let matrix = |deviations: &[f64], before: usize| {
             DMatrix::from_fn(wavelengths_nm.len(), 1 + 2 * nodes.count, |at, column| {
@@ -81,7 +81,9 @@ impl PaintErrors {
                 }
                 let own = (deviations[at].powi(2) - strength.powi(2)).max(0.0).sqrt();
                 let node = (column - 1).checked_sub(before * nodes.count);
-                node.map_or(0.0, |node| all(own) * nodes.at(node, wavelengths_nm[at]))
+                node.map_or(0.0, |node| {
+                    own.hypot(by_error).min(GREATEST) * nodes.at(node, wavelengths_nm[at])
+                })
             })
         };
         Self { over_absorption: matrix(&k, 0), over_scattering: matrix(&s, 1) }
@@ -434,10 +436,10 @@ mod tests {
         let (oils, _) = oils();
         let measured = &reading([430.0, 70.0], 1.0, [0.0; 2]).reflectance;
         for (at, measured) in measured.iter().enumerate() {
-            let sum = |curve: usize| {
+            let [k, s] = [0, 1].map(|curve: usize| {
                 exact.paints.iter().zip(MADE).map(|(p, grams)| p[curve][at] * grams).sum::<f64>()
-            };
-            let internal = spectra::optics::infinite_film(sum(0), sum(1));
+            });
+            let internal = spectra::optics::infinite_film(k, s);
             let found = oils.saunderson.measured_from_internal(internal);
             assert!((found - measured).abs() < 0.005, "{at}: {found} {measured}");
         }
@@ -470,13 +472,13 @@ mod tests {
         let forward = Forward::new(&library, &limits).unwrap();
         let lab = spectra::color::Lab { lightness: 50.0, a: 0.0, b: -30.0 };
         let target = Target::from_lab("", lab, &conditions);
-        let spread = |share: f64| {
+        let [none, trace, little, much] = [0.0, 0.01, 0.05, 0.2].map(|share: f64| {
             let (pigments, shares) = ([ids[0], last], [share, 1.0 - share]);
             let slopes = forward.slopes(&target, &pigments, &shares, &mut Scratch::default());
             let parts: Vec<_> = pigments.into_iter().zip(shares).collect();
             found.spread(&library, &errors, &parts, &slopes)
-        };
-        assert!(spread(0.0) < 1e-9, "{}", spread(0.0));
-        assert!(spread(0.01) > 0.0 && spread(0.2) > 2.0 * spread(0.05), "{}", spread(0.2));
+        });
+        assert!(none < 1e-9, "{none}");
+        assert!(trace > 0.0 && much > 2.0 * little, "{much}");
     }
 }
