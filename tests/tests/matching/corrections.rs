@@ -5,7 +5,7 @@ use calibrate::library::{AmountKind, PigmentLibrary};
 use calibrate::matching::{
     Batch, ColorTarget, CorrectRequest, MatchError, Metric, SpectrumWeights,
 };
-use calibrate::{PigmentId, Viewing};
+use calibrate::Viewing;
 use documents::Task;
 use spectra::color::delta_e_ciede2000;
 use spectra::{Reflectance, Spectrum};
