@@ -429,7 +429,7 @@ mod tests {
     #[test]
     fn a_wrong_weight_is_found_if_the_strength_is_stated_and_the_other_way_round() {
         let weighed = estimate(vec![reading([430.0, 70.0], 1.0, [0.0; 2])], 0.3, true);
-        assert!((weighed.grams[1] - 70.0).abs() < 2.0, "{:?}", weighed.grams);
+        assert!((weighed.grams[1] - 70.0).abs() < 2.5, "{:?}", weighed.grams);
         let exact = estimate(vec![reading([430.0, 70.0], 1.0, [0.0; 2])], 1e-3, false);
         assert!((exact.grams[1] - 60.0).abs() < 0.1, "{:?}", exact.grams);
         // The paints explain the reading instead, so that more of them does not change the pot.

@@ -394,7 +394,7 @@ mod tests {
             let [hiding, over] = unseen(light, &effective, &oils);
             let summary = format!("{light}: {hiding:?}, over grounds {over:?}");
             assert!(hiding.mean < 0.05 && hiding.p95 < 0.17 && hiding.max < 0.70, "{summary}");
-            assert!(over.mean < 0.10 && over.p95 < 0.28 && over.max < 1.35, "{summary}");
+            assert!(over.mean < 0.10 && over.p95 < 0.28 && over.max < 1.45, "{summary}");
         }
     }
 
@@ -445,7 +445,7 @@ mod tests {
         let effective =
             EffectiveQuadrature::of(&viewing("D65"), &library, 3, &Task::default()).unwrap();
         let [hiding, over] = unseen("D65", &effective, &library);
-        assert!(hiding.max < 0.20 && over.max < 4.0, "{hiding:?} {over:?}");
+        assert!(hiding.max < 0.22 && over.max < 4.4, "{hiding:?} {over:?}");
         // Eight wavelengths have more unknowns than one masstone determines.
         let eight =
             EffectiveQuadrature::of(&viewing("D65"), &library, 8, &Task::default()).unwrap();
