@@ -1,11 +1,11 @@
 //! Corrections of a batch when it was weighed with errors, or its paints differ from the library.
 
+use calibrate::Viewing;
 use calibrate::evaluate::lab;
 use calibrate::library::{AmountKind, PigmentLibrary};
 use calibrate::matching::{
     Batch, ColorTarget, CorrectRequest, MatchError, Metric, SpectrumWeights,
 };
-use calibrate::Viewing;
 use documents::Task;
 use spectra::color::delta_e_ciede2000;
 use spectra::{Reflectance, Spectrum};
