@@ -1,9 +1,9 @@
-//! Corrects pots of paint that were weighed badly, where the real paints differ from the library, and prints how far
-//! the corrected pots then are from their standards, and how far they were expected to be:
+//! Corrects pots of paint that were weighed badly, with paints that differ from the library. Prints the colour error of
+//! the pots from their standards before and after the correction, and the error that the correction expected:
 //! `cargo run --release -p impasto-calibrate --example correct_pots [READINGS [POTS [SEED]]]`.
 //!
-//! We deal the mixtures of a file of readings into halves and fit a library to each, both with all masstones. One
-//! library is in our hands, the other stands for the real paints. Every pot holds white and one to three other paints,
+//! We deal the mixtures of a file of readings into halves and fit a library to each, both with all masstones. The
+//! corrections use one library. The pots are made of the paints of the other. Every pot holds white and one to three other paints,
 //! each weighed with an error of 15 %. The standard is the colour that the recipe has with the real paints, then the
 //! colour that the library predicts for it.
 
@@ -31,7 +31,7 @@ const READING: f64 = 0.001;
 /// Shares of the white in a pot.
 const WHITE: std::ops::Range<f64> = 0.2..0.95;
 
-/// What is in a pot, in grams.
+/// Names of the paints in a pot, each with its grams.
 type Parts = Vec<(String, f64)>;
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -52,7 +52,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// K and S of every second oil, the white first and the black last.
+/// K and S of the oils, the white first and the black last.
 fn curves(oils: &PigmentLibrary) -> Vec<Curves> {
     let white = oils.reference_id().expect("the oils have a white");
     let black = oils.ids().find(|id| oils[*id].name.contains("Black")).expect("a black");

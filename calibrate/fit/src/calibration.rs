@@ -205,6 +205,8 @@ pub(crate) fn without(
 
 /// Standard deviation of log S of a pigment of which we know only the masstone (chosen by eye).
 const MASSTONE_DEVIATION: f64 = 1.5;
+/// We assume at least this luminance of a masstone, 0 to 1 (chosen by eye).
+const LEAST_LUMINANCE: f64 = 0.01;
 
 /// A pigment of which we know only the masstone. Light paints scatter more: we take the square root of the
 /// luminance Y of the masstone (0 to 1) as its S.
@@ -231,9 +233,6 @@ fn masstone(set: &SwatchSet, observations: &[Observation], lone: &Unidentified) 
         )],
     }
 }
-
-/// Least luminance from which we assume S.
-const LEAST_LUMINANCE: f64 = 0.01;
 
 fn evidence(
     library: &PigmentLibrary,

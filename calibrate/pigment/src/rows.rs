@@ -47,7 +47,7 @@ pub fn csv_of(rows: &[Value]) -> String {
     String::from_utf8(table).expect("cells are text")
 }
 
-/// The columns of `row` after those of `start`.
+/// One row with the columns of `start`, then the columns of `row`. Both must be objects.
 #[must_use]
 pub fn joined(mut start: Value, row: Value) -> Value {
     if let (Value::Object(start), Value::Object(row)) = (&mut start, row) {

@@ -2,10 +2,10 @@
 //! target.
 //!
 //! A recipe predicts the K and S of the pot, but nobody weighs exactly what the recipe says, and paints differ
-//! from those of the library. We estimate from the readings of the pot which weights and which K and S are most
-//! probable, and mix additions of these paints into it. What is left between the estimate and the reading is a
-//! factor of the pot's K at each wavelength, so that it starts at its measured colour (after Allen 1974, correction
-//! by the batch's own reflectance).
+//! from the paints of the library. From the readings of the pot we estimate the most probable weights, K and S, and
+//! predict what additions of these paints do. We scale K of the estimated pot at each wavelength, so that its
+//! predicted colour is the measured one before you add anything (after Allen 1974, correction by the batch's own
+//! reflectance).
 //!
 //! The search returns the smallest addition that brings the colour near enough to the target, with the error to
 //! expect.
@@ -34,8 +34,8 @@ use crate::recipe::{PigmentId, Recipe};
 pub const USUAL_CORRECTION: f64 = 0.5;
 /// Default relative standard deviation of what was weighed into a pot. We chose it by eye.
 const USUAL_WEIGHING: f64 = 0.1;
-/// Greatest deviation of what was weighed, and greatest strength of a paint.
-const MOST_FACTOR: f64 = 100.0;
+/// Greatest strength of a paint relative to the library.
+const GREATEST_STRENGTH: f64 = 100.0;
 
 /// A pot of paint that you mixed and measured.
 #[derive(Debug, Clone, PartialEq)]
@@ -334,7 +334,7 @@ impl CorrectRequest {
         let mut paints = library.clone();
         let mut strengths = vec![None; library.pigments.len()];
         for (name, strength) in &self.strength {
-            if !(*strength > 0.0 && *strength <= MOST_FACTOR) {
+            if !(*strength > 0.0 && *strength <= GREATEST_STRENGTH) {
                 let what = "a strength is above 0 and up to 100";
                 let hint = "try [strength=\"Cobalt Blue=0.9\"]";
                 return Err(MatchError::Number { what, value: *strength, hint });

@@ -1,14 +1,14 @@
-//! Estimate of what a pot of paint is by its readings: the amounts that were weighed, and K and S of the paints in it.
+//! Estimates the content of a pot of paint from its readings: the grams of each paint, and K and S of each paint.
 //!
-//! A pot differs from what its recipe predicts because nobody weighs exactly, and because its paints are not quite
-//! those of the library. The two need different corrections. More of a paint that was forgotten helps; but if the
-//! paint itself is another one, so is what you add of it. We therefore seek the most probable errors of all weights
-//! and of all K and S, given the readings (a maximum a posteriori estimate, Rodgers 2000, chapter 2). Its
-//! covariance says how well an addition can be predicted.
+//! A pot differs from its predicted colour for two reasons: nobody weighs exactly, and its paints differ a little from
+//! the paints of the library. You correct these differently. If too little blue was weighed, more blue helps. If your
+//! blue is weaker than the library's, the blue that you add is weaker too. From the readings we compute the most
+//! probable errors of all weights and of all K and S (a maximum a posteriori estimate, Rodgers 2000, chapter 2). The
+//! covariance of this estimate says how well we can predict an addition.
 //!
-//! Errors of K and S are relative. Those of a paint are a strength, which scales K and S alike, and deviations of
-//! each curve that are smooth over wavelength. Their sizes come from the standard deviations of the library and from
-//! the mean error of its fit.
+//! We describe the relative errors of a paint by its strength, which scales K and S alike, and by smooth changes of
+//! each curve over wavelength. How large we expect them to be follows from the standard deviations of the library
+//! and from the mean error of its fit.
 
 use nalgebra::{DMatrix, DVector};
 use spectra::optics::{absorption_over_scattering, infinite_film_slope};
@@ -19,7 +19,8 @@ use crate::recipe::PigmentId;
 
 /// We use no internal reflectance below this. Smaller readings say nothing about K / S.
 pub(super) const LEAST_INTERNAL: f64 = 1e-4;
-/// Errors of K and S bend over about this distance in nm. We chose it by eye.
+/// Distance in nm between nodes over wavelength. Errors of K and S change smoothly from node to node. We chose it by
+/// eye.
 const BEND_NM: f64 = 50.0;
 /// Relative deviation of K and S of a library that states none. We chose it by eye.
 const UNKNOWN: f64 = 0.1;
@@ -332,9 +333,10 @@ impl Pot<'_> {
 }
 
 impl PotEstimate {
-    /// Root mean square error of the residuals of a target with these `slopes`, for a mixture of a share of the pot
-    /// and shares of further paints. `library` holds K and S of all paints, the pot as the last, and `errors` those of
-    /// the paints that are not in the pot.
+    /// Error to expect of a mixture of the pot and of paints that you add: the root mean square change of its colour
+    /// if K, S and weights have their expected errors. You give the `shares` of the mixture, and the derivatives of
+    /// each residual of the target as `slopes`. The last pigment of `library` is the pot. `errors` holds the errors
+    /// to expect of each pigment of the library. For a paint in the pot we use the errors that its readings leave.
     pub(super) fn spread(
         &self,
         library: &PigmentLibrary,
