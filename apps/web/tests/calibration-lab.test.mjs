@@ -7,7 +7,7 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { after, afterEach, before, beforeEach, test } from "node:test";
 import { launched, pictures, program, root, served } from "./browser.mjs";
-import { dropped, same, savedBy } from "./calibration.mjs";
+import { dropped, freshPage, same, savedBy } from "./calibration.mjs";
 
 const measurements = resolve(root, "measurements");
 const oils = "van-gogh-oils.pigments.json";
@@ -27,12 +27,7 @@ after(async () => {
 });
 
 beforeEach(async () => {
-  context = await browser.newContext({ viewport: { width: 1280, height: 900 } });
-  page = await context.newPage();
-  page.setDefaultTimeout(30_000);
-  faults = [];
-  page.on("pageerror", (error) => faults.push(String(error)));
-  page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
+  ({ context, page, faults } = await freshPage(browser, 900, 30_000));
   await page.goto(server.address);
 });
 

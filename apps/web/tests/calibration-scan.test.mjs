@@ -7,7 +7,7 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { after, afterEach, before, beforeEach, test } from "node:test";
 import { launched, pictures, program, root, served } from "./browser.mjs";
-import { dropped, savedBy } from "./calibration.mjs";
+import { dropped, freshPage, savedBy } from "./calibration.mjs";
 import { envi, painted } from "./scans.mjs";
 
 const library = resolve(root, "measurements/van-gogh-oils.pigments.json");
@@ -28,12 +28,8 @@ after(async () => {
 });
 
 beforeEach(async () => {
-  context = await browser.newContext({ viewport: { width: 1280, height: 900 } });
-  page = await context.newPage();
-  page.setDefaultTimeout(60_000);
-  [faults, asked] = [[], []];
-  page.on("pageerror", (error) => faults.push(String(error)));
-  page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
+  ({ context, page, faults } = await freshPage(browser, 900, 60_000));
+  asked = [];
   page.on("request", (request) => asked.push(new URL(request.url()).pathname));
   await page.goto(server.address);
 });

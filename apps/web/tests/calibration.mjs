@@ -30,3 +30,15 @@ export function same(found, wanted) {
   const at = a.findIndex((line, place) => line !== b[place]);
   assert.fail(`line ${at + 1} is ${String(a[at]).slice(0, 120)}, wanted ${String(b[at]).slice(0, 120)}`);
 }
+
+// A fresh page of `height` pixels, which waits `timeout` ms at most. `faults` collects the errors of its scripts and of
+// its console.
+export async function freshPage(browser, height, timeout) {
+  const context = await browser.newContext({ viewport: { width: 1280, height } });
+  const page = await context.newPage();
+  page.setDefaultTimeout(timeout);
+  const faults = [];
+  page.on("pageerror", (error) => faults.push(String(error)));
+  page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
+  return { context, page, faults };
+}

@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { after, afterEach, before, beforeEach, test } from "node:test";
 import { launched, pictures, program, root, served } from "./browser.mjs";
-import { dropped, same, savedBy } from "./calibration.mjs";
+import { dropped, freshPage, same, savedBy } from "./calibration.mjs";
 import { apart, utf16, workbook } from "./files.mjs";
 
 const measurements = resolve(root, "measurements");
@@ -28,12 +28,8 @@ after(async () => {
 });
 
 beforeEach(async () => {
-  context = await browser.newContext({ viewport: { width: 1280, height: 900 } });
-  page = await context.newPage();
-  page.setDefaultTimeout(20_000);
-  [faults, requests] = [[], []];
-  page.on("pageerror", (error) => faults.push(String(error)));
-  page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
+  ({ context, page, faults } = await freshPage(browser, 900, 20_000));
+  requests = [];
   context.on("request", (request) => requests.push(request.url()));
   origin = new URL("/", server.address).href;
   await page.goto(server.address);

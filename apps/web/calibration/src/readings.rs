@@ -1,7 +1,7 @@
 //! Readings of swatches from dropped files.
 
 use calibrate::measurement::{Film, Scale, ScaleChoice};
-use calibrate::{ReadingFormat, ReadingOptions};
+use calibrate::{ReadingFormat, ReadingOptions, ReadingsError};
 use js_sys::{Array, JsString, Uint8Array};
 use serde::Deserialize;
 use serde_json::json;
@@ -84,11 +84,10 @@ impl Readings {
         given_contents: &Array<Uint8Array>,
         options: &str,
     ) -> Result<Readings> {
-        let options = Options::read(options)?;
-        let given = GivenFiles::put(files(given_names, given_contents))?;
-        let read = calibrate::Readings::from_files(&files(names, contents), &options);
-        drop(given);
-        let mut readings = read.told()?;
+        let given = files(given_names, given_contents);
+        let (mut readings, options) = with_references(given, options, |options| {
+            calibrate::Readings::from_files(&files(names, contents), options)
+        })?;
         if let Some((name, bytes)) = recipes_name.zip(recipes) {
             let pigments = options.pigments.as_deref();
             readings = readings.with_recipes_from(&name, &bytes, pigments).told()?;
@@ -106,11 +105,11 @@ impl Readings {
         given_contents: &Array<Uint8Array>,
         options: &str,
     ) -> Result<Readings> {
-        let options = Options::read(options)?;
-        let given = GivenFiles::put(files(given_names, given_contents))?;
-        let read = calibrate::Readings::spectra_from_files(&files(names, contents), &options);
-        drop(given);
-        read.map(Self).told()
+        let given = files(given_names, given_contents);
+        let (readings, _) = with_references(given, options, |options| {
+            calibrate::Readings::spectra_from_files(&files(names, contents), options)
+        })?;
+        Ok(Self(readings))
     }
 
     /// The readings as JSON: pigments, grid, number of readings and of samples, files, remarks.
@@ -136,6 +135,19 @@ impl Readings {
 #[wasm_bindgen]
 pub fn formats() -> String {
     json!(ReadingFormat::names().collect::<Vec<_>>()).to_string()
+}
+
+/// Reads with `options`, while the files of references that these name lie on the disk of the page.
+fn with_references(
+    references: Vec<(String, Vec<u8>)>,
+    options: &str,
+    read: impl FnOnce(&ReadingOptions) -> std::result::Result<calibrate::Readings, ReadingsError>,
+) -> Result<(calibrate::Readings, ReadingOptions)> {
+    let options = Options::read(options)?;
+    let given = GivenFiles::put(references)?;
+    let readings = read(&options);
+    drop(given);
+    Ok((readings.told()?, options))
 }
 
 /// Names and contents of files.
