@@ -75,7 +75,7 @@ impl PigmentLibrary {
     /// let oils = PigmentLibrary::van_gogh_oils();
     /// let viewing = Viewing::default();
     /// let color = oils.color([("Zinc White", 9.0), ("Cobalt Blue", 1.0)], &viewing)?;
-    /// assert_eq!(color.hex(), "#5698e4");
+    /// assert_eq!(color.hex(), "#5798e3");
     /// assert_eq!(color.reflectance.grid(), oils.grid);
     /// # Ok::<(), pigment::ColorError>(())
     /// ```

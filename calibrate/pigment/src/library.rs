@@ -33,7 +33,7 @@ const VAN_GOGH_OILS: &str = include_str!("../../../measurements/van-gogh-oils.pi
 ///
 /// let oils = PigmentLibrary::van_gogh_oils();
 /// let color = oils.color([("Zinc White", 9.0), ("Cobalt Blue", 1.0)], &Viewing::default())?;
-/// assert_eq!(color.hex(), "#5698e4");
+/// assert_eq!(color.hex(), "#5798e3");
 /// # Ok::<(), pigment::ColorError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
