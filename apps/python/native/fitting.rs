@@ -77,7 +77,7 @@ impl Validation {
         Ok(Residuals(Arc::new(residuals)))
     }
 
-    /// Errors as JSON: rms, delta_e, per_sample, needed, strength_free, by_pigment.
+    /// Errors as JSON: rms, delta_e, per_sample, needed, strength_free, strengths, by_pigment.
     fn errors(&self) -> PyResult<String> {
         serde_json::to_string(&self.0.errors)
             .map_err(|error| pyo3::exceptions::PyRuntimeError::new_err(error.to_string()))

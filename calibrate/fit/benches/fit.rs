@@ -4,6 +4,7 @@
 //! Other solvers take on 2 cores: quadprog 3.5 ms, Clarabel (one program after another) 19 ms,
 //! cvxpy 196 ms.
 
+use calibrate::LeaveOut;
 use calibrate::evaluate::Viewing;
 use calibrate::fit::{
     FitSettings, Method, Problem, Refinement, Smoothness, fit_qp, fit_refined, fit_weighted,
@@ -14,7 +15,7 @@ use calibrate::observation::BelowSurface;
 use calibrate::quadrature::Quadrature;
 use calibrate::swatch::SwatchSet;
 use calibrate::synthetic::SyntheticMixtures;
-use calibrate::validation::{ValidationPlan, leave_out};
+use calibrate::validation::{ValidationPlan, leave_out_samples};
 use calibrate::{PigmentId, calibration::calibrate};
 use divan::{Bencher, black_box};
 use documents::Task;
@@ -112,9 +113,15 @@ fn leave_one_out_of_the_oils(bencher: Bencher<'_, '_>) {
     let viewing = Viewing::default();
     let task = Task::default();
     let state = calibrate(&set, white, SURFACE, &settings, &viewing, &task).expect("a fit").state;
-    let plan =
-        ValidationPlan { settings: &settings, viewing: &viewing, state, folds: None, task: &task };
-    bencher.bench_local(|| leave_out(&set, white, SURFACE, black_box(&plan), |_| true));
+    let plan = ValidationPlan {
+        settings: &settings,
+        viewing: &viewing,
+        state,
+        leave_out: LeaveOut::Mixture,
+        folds: None,
+        task: &task,
+    };
+    bencher.bench_local(|| leave_out_samples(&set, white, SURFACE, black_box(&plan), |_| true));
 }
 
 #[divan::bench(args = [3, 8, 16], sample_count = 5)]

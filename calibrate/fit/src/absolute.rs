@@ -36,7 +36,7 @@ pub fn films(set: &SwatchSet) -> Result<FiniteProblem, MeasurementError> {
         ),
         films: Vec::new(),
     };
-    for swatch in &set.swatches {
+    for (index, swatch) in set.swatches.iter().enumerate() {
         for film in &swatch.films {
             let bare = film.bare.clone().ok_or_else(|| MeasurementError::NoBareBacking {
                 file: swatch.file.to_string(),
@@ -52,6 +52,8 @@ pub fn films(set: &SwatchSet) -> Result<FiniteProblem, MeasurementError> {
                     true => format!("{} on {}", swatch.sample, film.backing),
                     false => swatch.sample.clone(),
                 },
+                swatch: index,
+                backing: film.backing.clone(),
                 recipe: amounts.map(|(pigment, amount)| (PigmentId(pigment), amount)).collect(),
                 reflectance: film.reflectance.clone(),
                 bare,

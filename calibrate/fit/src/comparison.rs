@@ -10,11 +10,14 @@ use spectra::{Extrapolation, Grid, InterpolateError, Interpolation, Reflectance,
 use crate::absolute::{calibrate_absolute, films};
 use crate::calibration::{CalibrationError, calibrate};
 use crate::fit::{FitSettings, MeasuredFilm};
+use crate::leave_out::LeaveOut;
 use crate::measurement::MeasurementError;
 use crate::observation::{BelowSurface, observations};
 use crate::report::Scores;
 use crate::swatch::{Swatch, SwatchSet};
-use crate::validation::{DEFAULT_FOLDS, Validation, ValidationPlan, leave_out, leave_out_films};
+use crate::validation::{
+    DEFAULT_FOLDS, Validation, ValidationPlan, leave_out_films, leave_out_samples,
+};
 use pigment::evaluate::{Summary, Viewing};
 use pigment::library::{AmountKind, PigmentLibrary};
 
@@ -186,7 +189,7 @@ impl Comparable {
             swatch.films.iter().map(move |_| excluded)
         });
         let films = problem.films.into_iter().zip(excluded).map(|(measured, excluded)| {
-            let MeasuredFilm { name, recipe, reflectance, bare } = measured;
+            let MeasuredFilm { name, recipe, reflectance, bare, .. } = measured;
             let amounts = recipe.iter().map(|&(p, amount)| (self.in_library[p.index()], amount));
             let recipe: Recipe = amounts.collect();
             let mixture = library.mix(&recipe).expect("amounts are above 0");
@@ -201,22 +204,23 @@ impl Comparable {
         all.filter(|(_, share)| *share > 0.0).collect()
     }
 
-    /// Number of mixtures that [`Self::left_out`] would predict.
+    /// Number of samples that [`Self::left_out`] would predict.
     #[must_use]
     pub fn mixtures(&self, library: &PigmentLibrary) -> usize {
         let set = self.fitted_again(library);
-        let films = set
-            .swatches
-            .iter()
-            .filter(|s: &&Swatch| s.amounts.iter().filter(|a| **a > 0.0).count() > 1)
-            .map(|s| match library.amounts {
-                AmountKind::Relative => 1,
-                AmountKind::Absolute => s.films.len(),
-            });
+        let leave_out = LeaveOut::usual(&set);
+        let films =
+            set.swatches.iter().filter(|swatch: &&Swatch| leave_out.selects(&swatch.amounts)).map(
+                |s| match library.amounts {
+                    AmountKind::Relative => 1,
+                    AmountKind::Absolute => s.films.len(),
+                },
+            );
         films.sum()
     }
 
-    /// Leaves out each mixture in turn, fits the others as `library` was fitted, and predicts it. For
+    /// Leaves out each mixture in turn (or each sample, if there are no mixtures), fits the others as
+    /// `library` was fitted, and predicts it. For
     /// absolute amounts we deal the mixtures at random into 10 groups (the same every time), and leave out
     /// one group at a time. You get `None` if the reference white was not measured, or there is no mixture.
     ///
@@ -239,10 +243,12 @@ impl Comparable {
         let settings = settings(library);
         let set = self.fitted_again(library);
         let quiet = task.quiet();
-        let plan = ValidationPlan { settings: &settings, viewing, state: None, folds: None, task };
+        let leave_out = LeaveOut::usual(&set);
+        let settings = &settings;
+        let plan = ValidationPlan { settings, viewing, state: None, leave_out, folds: None, task };
         if library.amounts == AmountKind::Absolute {
             let film = library.film();
-            let state = calibrate_absolute(&set, film, &settings, viewing, &quiet)?.state;
+            let state = calibrate_absolute(&set, film, settings, viewing, &quiet)?.state;
             let plan = ValidationPlan { state, folds: Some(DEFAULT_FOLDS), ..plan };
             return leave_out_films(&set, film, &plan).map(Some);
         }
@@ -254,9 +260,9 @@ impl Comparable {
             return Ok(None);
         };
         let surface: Surface = library.saunderson;
-        let state = calibrate(&set, reference, surface, &settings, viewing, &quiet)?.state;
+        let state = calibrate(&set, reference, surface, settings, viewing, &quiet)?.state;
         let plan = ValidationPlan { state, ..plan };
-        leave_out(&set, reference, surface, &plan, |_| true).map(Some)
+        leave_out_samples(&set, reference, surface, &plan, |_| true).map(Some)
     }
 
     /// The samples that the library's fit used, with pigments named as in the library.

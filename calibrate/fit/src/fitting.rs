@@ -536,10 +536,29 @@ pub enum FittingError {
     #[hint("try [folds=10]")]
     #[fault(Setting)]
     Folds(usize),
-    /// No mixture can be left out.
-    #[error("{}", nothing_to_leave_out(.0))]
+    /// Other residuals than those of mixtures are no errors of mixtures.
+    #[error("residuals for maps are those of mixtures that were left out by themselves")]
+    #[hint("leave out [residuals] or [leave_out]")]
+    #[fault(Setting)]
+    ResidualsOfMixtures,
+    /// Only films of absolute amounts lie over grounds that show.
+    #[error("films of relative amounts hide their ground, so that no ground can be left out")]
+    #[hint("leave out mixtures or samples with [leave_out], or state [amounts=absolute]")]
+    #[fault(Setting)]
+    RelativeGround,
+    /// All samples are in one file.
+    #[error("all samples are in one file, {0}, so that no file can be left out")]
+    #[hint("give a file for each batch, or leave out mixtures or samples with [leave_out]")]
+    OneFile(String),
+    /// Nothing can be left out.
+    #[error("{}", nothing_to_leave_out(what, needed))]
     #[hint("measure more mixtures of each pigment (masstone, two tints, a shade)")]
-    NothingToLeaveOut(Vec<String>),
+    NothingToLeaveOut {
+        /// What should be left out: `mixture`, `sample` or `film`.
+        what: &'static str,
+        /// Those without which a pigment would not be identified.
+        needed: Vec<String>,
+    },
     /// The readings have no visible wavelength.
     #[error(transparent)]
     Band(#[from] BandError),
@@ -551,12 +570,12 @@ pub enum FittingError {
     Calibration(#[from] CalibrationError),
 }
 
-fn nothing_to_leave_out(needed: &[String]) -> String {
+fn nothing_to_leave_out(what: &str, needed: &[String]) -> String {
     if needed.is_empty() {
-        return "there is no mixture to leave out".to_owned();
+        return format!("there is no {what} to leave out");
     }
     let needed = needed.join(", ");
-    format!("no mixture can be left out: without it a pigment would not be identified ({needed})")
+    format!("no {what} can be left out: without it a pigment would not be identified ({needed})")
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use spectra::optics::{Specular, Surface};
 
 use crate::fit::{Method, Smoothness};
+use crate::leave_out::LeaveOut;
 use crate::observation::BelowSurface;
 use crate::readings::Readings;
 
@@ -91,8 +92,10 @@ impl Default for Provenance {
 pub struct ValidationRequest {
     /// Options of the fits
     pub fit: FitRequest,
-    /// Deal the mixtures at random into this many groups (the same every time), and leave out one group at a
-    /// time [default: one mixture at a time; for absolute amounts, 10 groups]
+    /// What to leave out at a time [default: mixture, or sample if there are no mixtures]
+    pub leave_out: Option<LeaveOut>,
+    /// Deal the mixtures (or samples) at random into this many groups (the same every time), and leave out one
+    /// group at a time [default: one mixture at a time; for absolute amounts, 10 groups]
     pub folds: Option<usize>,
     /// Leave out only mixtures with this pigment (may be repeated)
     pub with: Vec<String>,

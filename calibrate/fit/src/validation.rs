@@ -2,6 +2,8 @@
 //!
 //! We also compute here the fits without some of the samples, their errors, and these errors as JSON.
 
+use std::collections::BTreeSet;
+
 use documents::Task;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -12,17 +14,19 @@ use spectra::optics::{Surface, UnevenFilm};
 use crate::absolute::{all_but, films, folds};
 use crate::calibration::{CalibrationError, pigment, solve, without};
 use crate::fit::{
-    FitError, FitSettings, Problem, RefinedState, Refinement, Unidentified, fit_finite,
-    unidentified,
+    FitError, FitSettings, MeasuredFilm, Problem, RefinedState, Refinement, Unidentified,
+    fit_finite, unidentified,
 };
 use crate::fitting::{FilmModel, Fit, FittingError, PreparedFit, index_of};
+use crate::leave_out::{Candidate, LeaveOut, is_mixture};
 use crate::observation::{Observation, observations};
 use crate::readings::Readings;
 use crate::report::{ErrorReport, Scores, shares_of_squares};
 use crate::request::ValidationRequest;
 use crate::residuals::{LeftOutMixture, Residuals};
+use crate::strength::{Mixed, StrengthChange, Strengths};
 use crate::swatch::SwatchSet;
-use pigment::evaluate::{Summary, Viewing, delta_e};
+use pigment::evaluate::{Summary, Viewing};
 use pigment::library::{AmountKind, Evidence, PigmentLibrary, SampleEvidence};
 use pigment::{Curves, PigmentId};
 
@@ -42,9 +46,11 @@ pub struct Validation {
     /// Mixtures that could not be left out, since a pigment would not be identified without them.
     pub needed: Vec<String>,
     /// Summary of the colour errors that remain if, in each mixture, one common factor for all
-    /// pigments except the main one may be chosen freely. These are the errors that do not come
-    /// from tinting strength. `None` for absolute amounts.
+    /// pigments except the white may be chosen freely (or except the main one, if there is no white).
+    /// These are the errors that do not come from tinting strength. `None` for absolute amounts.
     pub strength_free: Option<Summary>,
+    /// Factors of the strength that mixtures of a file have in common. Empty for absolute amounts.
+    pub strengths: Vec<StrengthChange>,
     /// Pigments by their part of the error, the greatest first. Empty for absolute amounts.
     pub by_pigment: Vec<PigmentError>,
     /// Measured and predicted films of the mixtures. Empty for absolute amounts, because their films do not
@@ -78,10 +84,12 @@ pub struct ValidationPlan<'a> {
     /// Estimates from the fit of all samples, which are reused rather than estimated in each fit. On the
     /// Van Gogh oils this changes the mean error by 0.004 CIEDE2000.
     pub state: Option<RefinedState>,
-    /// Number of groups into which we deal the mixtures at random (the same every time), to leave out one
-    /// group at a time. `None` leaves out one mixture at a time.
+    /// What is left out at a time.
+    pub leave_out: LeaveOut,
+    /// Number of groups into which we deal what would be left out at a time, at random (the same every
+    /// time), to leave out one group at a time instead.
     pub folds: Option<usize>,
-    /// Counts the mixtures that were left out.
+    /// Counts the samples that were left out.
     pub task: &'a Task,
 }
 
@@ -99,32 +107,40 @@ impl ValidationPlan<'_> {
         Refits { set, observations, reference, surface, settings, state, task }
     }
 
-    fn groups(&self, candidates: &[usize]) -> Vec<Vec<usize>> {
-        let Some(count) = self.folds else { return candidates.iter().map(|&c| vec![c]).collect() };
-        let dealt = folds(candidates.len(), count);
-        dealt.into_iter().map(|group| group.into_iter().map(|i| candidates[i]).collect()).collect()
+    /// Indices of the films that are left out together.
+    fn groups<'a>(
+        &self,
+        candidates: impl Iterator<Item = Candidate<'a>>,
+        pigments: &'a [String],
+    ) -> Vec<Vec<usize>> {
+        let groups = self.leave_out.groups(candidates, pigments);
+        let Some(count) = self.folds else { return groups };
+        let dealt = folds(groups.len(), count);
+        dealt
+            .into_iter()
+            .map(|fold| fold.iter().flat_map(|&i| groups[i].clone()).collect())
+            .collect()
     }
 
     /// Predictions of each group left out, on all cores, in order of the file.
-    fn predictions(
+    fn predictions<'a>(
         &self,
-        candidates: &[usize],
-        predict: impl Fn(&Vec<usize>) -> Result<Vec<Prediction>, CalibrationError> + Sync,
-    ) -> Result<Vec<Prediction>, CalibrationError> {
-        let groups = self.groups(candidates);
+        groups: &[Vec<usize>],
+        predict: impl Fn(&Vec<usize>) -> Result<Vec<Prediction<'a>>, CalibrationError> + Sync,
+    ) -> Result<Vec<Prediction<'a>>, CalibrationError> {
         let predicted = groups.par_iter().map(&predict).collect::<Result<Vec<_>, _>>()?;
-        let mut predictions: Vec<Prediction> = predicted.into_iter().flatten().collect();
+        let mut predictions: Vec<Prediction<'a>> = predicted.into_iter().flatten().collect();
         predictions.sort_by_key(|prediction| prediction.index);
         Ok(predictions)
     }
 }
 
-/// Refits without each mixture (of two pigments or more) that `chosen` selects, on all cores, and predicts
-/// it as a film that hides.
+/// Refits without the samples that `plan` leaves out and `chosen` selects, on all cores, and predicts them
+/// as films that hide.
 ///
 /// # Errors
 /// [`CalibrationError`] from reading or from any fit.
-pub fn leave_out(
+pub fn leave_out_samples(
     set: &SwatchSet,
     reference: PigmentId,
     surface: Surface,
@@ -133,38 +149,47 @@ pub fn leave_out(
 ) -> Result<Validation, CalibrationError> {
     let observations = observations(set, surface, plan.settings.below_surface)?;
     let refits = plan.refits(set, &observations, reference, surface);
-    let candidates: Vec<usize> = refits.mixtures().filter(|&i| chosen(&observations[i])).collect();
+    let candidates = refits.identified().filter(|&index| chosen(&observations[index]));
+    let candidates =
+        candidates.map(|index| Candidate { index, swatch: &set.swatches[index], ground: "" });
+    let groups = plan.groups(candidates, &set.pigments);
     let weights = plan.viewing.weights(set.grid).expect("the method fits the grid");
-    let left_out = plan.task.steps_of(LEFT_OUT, candidates.len());
-    let predictions = plan.predictions(&candidates, |group| {
-        let refit = refits.without(group)?;
+    let strengths = Strengths { grid: set.grid, surface, weights: &weights };
+    let left_out = plan.task.steps_of(LEFT_OUT, groups.iter().map(Vec::len).sum());
+    let predictions = plan.predictions(&groups, |group| {
+        let refit = match refits.without(group) {
+            Err(CalibrationError::Fit(FitError::Empty | FitError::Reference)) => None,
+            other => Some(other?),
+        };
         let predictions = group.iter().map(|&index| {
             left_out.step();
             let target = &observations[index];
-            Prediction {
-                index,
-                predicted: refit.identifies(target).then(|| {
-                    let film = refit.film(target, surface, 1.0);
-                    let best = least_error(|strength: f64| {
-                        let film = refit.film(target, surface, strength);
-                        delta_e(&weights, &target.as_read, &film)
-                    });
-                    (film, Some(best))
-                }),
-            }
+            let refit = refit.as_ref().filter(|refit| refit.identifies(target));
+            let predicted = refit.map(|refit| {
+                let mixed = refit.mixed(target, reference, &set.swatches[index].file);
+                let film = strengths.film(&mixed, &[]);
+                let is_mixture = mixed.parts.len() > 1;
+                let strength_free = is_mixture.then(|| strengths.least_error(&mixed));
+                Predicted { film, strength_free, mixed: is_mixture.then_some(mixed) }
+            });
+            Prediction { index, predicted }
         });
         Ok(predictions.collect())
     })?;
-    let found = predictions.iter().filter_map(|prediction| {
-        Some((&observations[prediction.index], &prediction.predicted.as_ref()?.0))
+    let found = predictions.iter().filter_map(|prediction: &Prediction<'_>| {
+        Some((&observations[prediction.index], &prediction.predicted.as_ref()?.film))
     });
     let (mixtures, films): (Vec<&Observation>, Vec<LeftOutMixture>) =
         found.map(|(target, film)| (target, left_out_mixture(set, target, film))).unzip();
+    let mixed = predictions
+        .iter()
+        .filter_map(|prediction: &Prediction<'_>| prediction.predicted.as_ref()?.mixed.as_ref());
+    let changes = strengths.changes(&mixed.collect::<Vec<_>>(), &set.pigments, reference);
     let errors = summary(set, plan, predictions, |index: usize| {
         (observations[index].sample.clone(), observations[index].as_read.as_slice())
     });
     let by_pigment = by_pigment(set, &mixtures, &errors.per_sample);
-    Ok(Validation { by_pigment, mixtures: films, ..errors })
+    Ok(Validation { strengths: changes, by_pigment, mixtures: films, ..errors })
 }
 
 /// Measured and predicted films of a mixture, both of which hide.
@@ -180,31 +205,6 @@ pub(crate) fn left_out_mixture(
         measured: target.reflectance.clone(),
         predicted: predicted.to_vec(),
     }
-}
-
-/// We try this many factors of the strength, from 1/4 to 4, evenly spaced in their logarithm.
-const STRENGTHS: i32 = 33;
-/// We refine the best factor in this many steps. Each step halves the distance at which we try two other
-/// factors.
-const HALVINGS: usize = 12;
-
-/// Least `error` of any strength from 1/4 to 4.
-fn least_error(error: impl Fn(f64) -> f64) -> f64 {
-    let range = 4f64.ln();
-    let at = |log: f64| (error(log.exp()), log);
-    let last = f64::from(STRENGTHS - 1);
-    let coarse = (0..STRENGTHS).map(|i| at(range * (2.0 * f64::from(i) / last - 1.0)));
-    let mut best = coarse.reduce(lower_error).expect("there are strengths");
-    let mut step = range / last;
-    for _ in 0..HALVINGS {
-        best = [best.1 - step, best.1 + step].map(at).into_iter().fold(best, lower_error);
-        step /= 2.0;
-    }
-    best.0
-}
-
-fn lower_error(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
-    if b.0 < a.0 { b } else { a }
 }
 
 /// How much of the error comes from mixtures with each pigment.
@@ -230,7 +230,7 @@ fn square(error: &SampleEvidence) -> f64 {
     error.delta_e * error.delta_e
 }
 
-/// Refits without each film of two pigments or more, for absolute amounts, and predicts it.
+/// Refits without the films that `plan` leaves out, for absolute amounts, and predicts them.
 ///
 /// # Errors
 /// [`CalibrationError`] from reading or from any fit.
@@ -242,17 +242,36 @@ pub fn leave_out_films(
     let problem = films(set)?;
     let weights = Viewing::default().weights(set.grid).expect("the method fits the grid");
     let count = problem.films.len();
-    let candidates: Vec<usize> =
-        (0..count).filter(|&i| problem.films[i].recipe.len() > 1).collect();
+    let candidates =
+        problem.films.iter().enumerate().map(|(index, film): (usize, &MeasuredFilm)| Candidate {
+            index,
+            swatch: &set.swatches[film.swatch],
+            ground: &film.backing,
+        });
+    let groups = plan.groups(candidates, &set.pigments);
     let how = Refinement::prediction(plan.settings.smoothness, plan.state);
     let task = plan.task.quiet();
-    let left_out = plan.task.steps_of(LEFT_OUT, candidates.len());
-    let predictions = plan.predictions(&candidates, |group| {
+    let left_out = plan.task.steps_of(LEFT_OUT, groups.iter().map(Vec::len).sum());
+    let predictions = plan.predictions(&groups, |group| {
         let part = problem.with_films(&all_but(count, group));
-        let fit = fit_finite(&part, film, &weights, how, &task)?;
+        let known: BTreeSet<PigmentId> =
+            part.films.iter().flat_map(|film| film.recipe.pigments()).collect();
+        // Without any film of a pigment there is nothing to predict it from.
+        let fit = if part.films.is_empty() {
+            None
+        } else {
+            Some(fit_finite(&part, film, &weights, how, &task)?)
+        };
         let predictions = group.iter().map(|&index| {
             left_out.step();
-            Prediction { index, predicted: Some((problem.predicted(&fit, film, index), None)) }
+            let is_known = problem.films[index].recipe.pigments().all(|p| known.contains(&p));
+            let fit = fit.as_ref().filter(|_| is_known);
+            let predicted = fit.map(|fit| Predicted {
+                film: problem.predicted(fit, film, index),
+                strength_free: None,
+                mixed: None,
+            });
+            Prediction { index, predicted }
         });
         Ok(predictions.collect())
     })?;
@@ -261,17 +280,24 @@ pub fn leave_out_films(
     }))
 }
 
-/// Prediction of a left-out sample, or `None` if a pigment would not be identified without it.
-struct Prediction {
+/// Prediction of a left-out film, or `None` if a pigment would not be identified without it.
+struct Prediction<'a> {
     index: usize,
-    /// Predicted reflectance, and the colour error that remains if the strength is free.
-    predicted: Option<(Vec<f64>, Option<f64>)>,
+    predicted: Option<Predicted<'a>>,
+}
+
+struct Predicted<'a> {
+    film: Vec<f64>,
+    /// Colour error that remains if the strength of the mixture is free.
+    strength_free: Option<f64>,
+    /// The mixture, if its strength can differ.
+    mixed: Option<Mixed<'a>>,
 }
 
 fn summary<'a>(
     set: &SwatchSet,
     plan: &ValidationPlan<'_>,
-    predictions: Vec<Prediction>,
+    predictions: Vec<Prediction<'_>>,
     sample: impl Fn(usize) -> (String, &'a [f64]),
 ) -> Validation {
     let weights = plan.viewing.weights(set.grid).expect("the method fits the grid");
@@ -281,9 +307,9 @@ fn summary<'a>(
     for Prediction { index, predicted } in predictions {
         let (name, measured) = sample(index);
         match predicted {
-            Some((predicted, free)) => {
-                films.push((name, measured, predicted));
-                strength_free.extend(free);
+            Some(predicted) => {
+                films.push((name, measured, predicted.film));
+                strength_free.extend(predicted.strength_free);
             }
             None => needed.push(name),
         }
@@ -296,6 +322,7 @@ fn summary<'a>(
         per_sample,
         needed,
         strength_free,
+        strengths: Vec::new(),
         by_pigment: Vec::new(),
         mixtures: Vec::new(),
     }
@@ -321,16 +348,19 @@ pub(crate) struct Refit {
 }
 
 impl Refits<'_> {
-    /// Mixtures that can be left out. They have two pigments or more, and the full fit identifies all of
-    /// these.
-    pub(crate) fn mixtures(&self) -> impl Iterator<Item = usize> {
+    /// Samples with pigments that the full fit identifies.
+    fn identified(&self) -> impl Iterator<Item = usize> {
         let shares = self.observations.iter().map(|o| o.shares.as_slice());
         let unknown = unidentified(shares, self.reference);
         (0..self.observations.len()).filter(move |&i| {
-            let target = &self.observations[i];
-            (target.shares.iter().filter(|s| **s > 0.0).count() > 1)
-                && unknown.iter().all(|u| target.shares[u.pigment.index()] == 0.0)
+            unknown.iter().all(|u| self.observations[i].shares[u.pigment.index()] == 0.0)
         })
+    }
+
+    /// Mixtures that can be left out. They have two pigments or more, and the full fit identifies all of
+    /// these.
+    pub(crate) fn mixtures(&self) -> impl Iterator<Item = usize> {
+        self.identified().filter(|&index| is_mixture(&self.observations[index].shares))
     }
 
     pub(crate) fn without(&self, group: &[usize]) -> Result<Refit, CalibrationError> {
@@ -368,17 +398,25 @@ impl Refit {
         self.unknown.iter().all(|u| target.shares[u.pigment.index()] == 0.0)
     }
 
-    /// Predicted reflectance of `target` in a film that hides, where the amounts of all pigments but its
-    /// main one are multiplied by `strength`.
-    pub(crate) fn film(&self, target: &Observation, surface: Surface, strength: f64) -> Vec<f64> {
-        let main = (0..target.shares.len())
-            .reduce(|a: usize, b: usize| if target.shares[b] > target.shares[a] { b } else { a })
-            .map(PigmentId);
+    /// The parts of `target`, a sample of `file`.
+    fn mixed<'a>(&self, target: &'a Observation, white: PigmentId, file: &'a str) -> Mixed<'a> {
+        let parts = self.identified.iter().zip(&self.curves).filter_map(|(&pigment, curves)| {
+            let share = target.shares[pigment.index()];
+            (share > 0.0).then(|| (pigment, share, curves.clone()))
+        });
+        let parts: Vec<(PigmentId, f64, Curves)> = parts.collect();
+        // The first of equal shares.
+        let main = parts.iter().rev().max_by(|a, b| a.1.total_cmp(&b.1));
+        let with_white = parts.iter().find(|(pigment, _, _)| *pigment == white);
+        let base = with_white.or(main).map_or(white, |(pigment, _, _)| *pigment);
+        Mixed { file, measured: &target.as_read, base, parts }
+    }
+
+    /// Predicted reflectance of `target` in a film that hides.
+    pub(crate) fn film(&self, target: &Observation, surface: Surface) -> Vec<f64> {
         let parts = self.identified.iter().zip(&self.curves).map(|(pigment, curves)| {
             let (absorption, scattering) = curves.as_slices();
-            let share = target.shares[pigment.index()];
-            let scale = if Some(*pigment) == main { 1.0 } else { strength };
-            (share * scale, absorption, scattering)
+            (target.shares[pigment.index()], absorption, scattering)
         });
         Curves::weighted_sum(self.grid, parts).hiding(surface)
     }
@@ -403,6 +441,8 @@ pub struct FitValidation {
     pub errors: Validation,
     /// Fit of all samples.
     pub fit: Fit,
+    /// What was left out at a time.
+    pub leave_out: LeaveOut,
     /// Number of groups that were left out in turn, or `None` for each mixture by itself.
     pub folds: Option<usize>,
     viewing: Viewing,
@@ -416,10 +456,11 @@ impl FitValidation {
         let count = per_sample.len();
         let manner = match self.folds {
             Some(folds) => format!("in {}", documents::counted(folds.min(count), "group")),
-            None => "one by one".to_owned(),
+            None => self.leave_out.manner().to_owned(),
         };
         let light = [self.viewing.illuminant.name(), self.viewing.observer.name()];
-        let title = format!("{}, left out {manner}", documents::counted(count, "mixture"));
+        let title =
+            format!("{}, left out {manner}", documents::counted(count, self.leave_out.noun()));
         ErrorReport::new(title, delta_e, *rms, light, per_sample).with_lines(self.findings())
     }
 
@@ -427,11 +468,15 @@ impl FitValidation {
     /// maps learn from these how far the library's predictions err.
     ///
     /// # Errors
-    /// [`FittingError::AbsoluteResiduals`] for absolute amounts, because their films do not hide.
+    /// [`FittingError::AbsoluteResiduals`] for absolute amounts, because their films do not hide, and
+    /// [`FittingError::ResidualsOfMixtures`] if something else than each mixture was left out.
     pub fn residuals(&self) -> Result<Residuals, FittingError> {
         let library = &self.fit.library;
         if library.amounts == AmountKind::Absolute {
             return Err(FittingError::AbsoluteResiduals);
+        }
+        if self.leave_out != LeaveOut::Mixture {
+            return Err(FittingError::ResidualsOfMixtures);
         }
         let residuals = Residuals {
             grid: library.grid,
@@ -444,8 +489,8 @@ impl FitValidation {
         Ok(residuals.rounded())
     }
 
-    /// Sentences about the pigments with the largest errors, and the error that remains with free tinting
-    /// strength.
+    /// Sentences about the pigments with the largest errors, the error that remains with free tinting
+    /// strength, and strengths that mixtures have in common.
     fn findings(&self) -> Vec<String> {
         let pigments: Vec<String> = (self.errors.by_pigment.iter().take(NAMED_PIGMENTS))
             .map(|p| format!("{} {:.0} % in {}", p.pigment, 100.0 * p.share, p.mixtures))
@@ -455,7 +500,8 @@ impl FitValidation {
         let strength = self.errors.strength_free.map(|free| {
             format!("with the strength of each mixture free the mean would be {:.2}", free.mean)
         });
-        by_pigment.into_iter().chain(strength).collect()
+        let common = self.errors.strengths.iter().map(ToString::to_string);
+        by_pigment.into_iter().chain(strength).chain(common).collect()
     }
 
     /// Names the mixtures that could not be left out.
@@ -504,14 +550,29 @@ impl ValidationRequest {
 }
 
 impl PreparedFit {
-    /// Number of mixtures that [`Self::validate`] leaves out at most.
+    /// Number of samples that [`Self::validate`] leaves out at most.
     ///
     /// # Errors
     /// [`FittingError`] if a name of `options` is unknown, or options exclude each other.
     pub fn mixtures(&self, options: &ValidationRequest) -> Result<usize, FittingError> {
         let chosen = self.chosen(options)?;
-        let amounts = self.set.swatches.iter().map(|swatch| swatch.amounts.as_slice());
-        Ok(amounts.filter(|amounts| is_mixture(amounts) && chosen.selects(amounts)).count())
+        let leave_out = self.leave_out(options)?;
+        let swatches = self.set.swatches.iter().filter(|swatch| chosen.selects(&swatch.amounts));
+        Ok(swatches.filter(|swatch| leave_out.selects(&swatch.amounts)).count())
+    }
+
+    /// What a validation with these options leaves out at a time.
+    fn leave_out(&self, options: &ValidationRequest) -> Result<LeaveOut, FittingError> {
+        if options.leave_out == Some(LeaveOut::Ground)
+            && !matches!(self.model, FilmModel::Absolute(_))
+        {
+            return Err(FittingError::RelativeGround);
+        }
+        let files: BTreeSet<&str> = self.set.swatches.iter().map(|s| &*s.file).collect();
+        if options.leave_out == Some(LeaveOut::File) && files.len() < 2 {
+            return Err(FittingError::OneFile(files.first().map_or("", |file| *file).to_owned()));
+        }
+        Ok(options.leave_out.unwrap_or_else(|| LeaveOut::usual(&self.set)))
     }
 
     /// Validates like [`validate`], with these readings and fit options. Use `task` to follow the stages of
@@ -542,30 +603,31 @@ impl PreparedFit {
             return Err(FittingError::Folds(folds));
         }
         let chosen = self.chosen(options)?;
-        let folds = match self.model {
-            FilmModel::Relative { .. } => options.folds,
-            FilmModel::Absolute(_) => options.folds.or(Some(DEFAULT_FOLDS)),
-        };
+        let leave_out = self.leave_out(options)?;
+        let is_long = matches!(self.model, FilmModel::Absolute(_)) && leave_out.is_single();
+        let folds = options.folds.or(is_long.then_some(DEFAULT_FOLDS));
         let viewing = self.viewing().clone();
         let plan = ValidationPlan {
             settings: &self.settings,
             viewing: &viewing,
             state: fit.state,
+            leave_out,
             folds,
             task,
         };
         let errors = match self.model {
             FilmModel::Relative { reference, surface } => {
-                leave_out(&self.set, reference, surface, &plan, |o: &Observation| {
+                leave_out_samples(&self.set, reference, surface, &plan, |o: &Observation| {
                     chosen.selects(&o.shares)
                 })?
             }
             FilmModel::Absolute(film) => leave_out_films(&self.set, film, &plan)?,
         };
         if errors.per_sample.is_empty() {
-            return Err(FittingError::NothingToLeaveOut(errors.needed));
+            let what = leave_out.noun();
+            return Err(FittingError::NothingToLeaveOut { what, needed: errors.needed });
         }
-        Ok(FitValidation { errors, fit, folds, viewing })
+        Ok(FitValidation { errors, fit, leave_out, folds, viewing })
     }
 
     /// Leaves out each mixture of two pigments or more in turn, on all cores, like [`Self::validate`], and
@@ -585,7 +647,8 @@ impl PreparedFit {
         let observations = observations.map_err(CalibrationError::from)?;
         let state = self.fit(&task.quiet())?.state;
         let viewing = self.viewing();
-        let plan = ValidationPlan { settings, viewing, state, folds: None, task };
+        let leave_out = LeaveOut::Mixture;
+        let plan = ValidationPlan { settings, viewing, state, leave_out, folds: None, task };
         let refits = plan.refits(set, &observations, reference, surface);
         let mixtures: Vec<usize> = refits.mixtures().collect();
         let steps = task.steps_of(LEFT_OUT, mixtures.len());
@@ -600,7 +663,7 @@ impl PreparedFit {
                 other => other?,
             };
             Ok(refit.identifies(target).then(|| LeftOut {
-                mixture: left_out_mixture(set, target, &refit.film(target, surface, 1.0)),
+                mixture: left_out_mixture(set, target, &refit.film(target, surface)),
                 library: refits.library(&refit),
             }))
         });
@@ -634,10 +697,6 @@ impl PreparedFit {
         let with = options.with.iter().map(|name| index_of(&self.set.pigments, name, "pigment"));
         with.collect::<Result<_, _>>().map(ChosenPigments)
     }
-}
-
-fn is_mixture(amounts: &[f64]) -> bool {
-    amounts.iter().filter(|a| **a > 0.0).count() > 1
 }
 
 /// A mixture must contain one of these pigments. If the list is empty, every mixture will do.

@@ -136,6 +136,14 @@ impl PigmentLibrary {
         (0..self.pigments.len()).map(PigmentId)
     }
 
+    /// Pigments that recipes and maps take if you name none: those with measured K and S. If there is at
+    /// most one of them, then also those whose S was assumed from a masstone.
+    #[must_use]
+    pub fn usual_pigments(&self) -> Vec<PigmentId> {
+        let measured: Vec<PigmentId> = self.ids().filter(|id| self[*id].identified).collect();
+        if measured.len() > 1 { measured } else { self.ids().collect() }
+    }
+
     /// Index of the reference white. `None` if the library has none.
     #[must_use]
     pub fn reference_id(&self) -> Option<PigmentId> {

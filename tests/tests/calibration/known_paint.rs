@@ -16,7 +16,7 @@ use calibrate::observation::{BelowSurface, Hiding, Observation, observations};
 use calibrate::swatch::SwatchSet;
 use calibrate::synthetic::SyntheticMixtures;
 use calibrate::validation::{ValidationPlan, leave_out_films};
-use calibrate::{Curves, PigmentId};
+use calibrate::{Curves, LeaveOut, PigmentId};
 use documents::Task;
 use spectra::optics::{Layer, Surface, UnevenFilm, infinite_film};
 use suite::watercolors::Watercolors;
@@ -267,6 +267,7 @@ fn unseen_mixtures_of_uneven_washes_are_predicted_within_two() {
         settings: &settings,
         viewing: &viewing,
         state: None,
+        leave_out: LeaveOut::Mixture,
         folds: Some(3),
         task: &Task::default(),
     };

@@ -5,5 +5,6 @@
 mod cards;
 mod disorder;
 mod known_paint;
+mod left_out;
 mod oils;
 mod prior;

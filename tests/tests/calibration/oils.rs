@@ -15,8 +15,10 @@ use calibrate::measurement::MeasurementError;
 use calibrate::observation::{BelowSurface, Hiding, observations};
 use calibrate::plan::{PlanError, PlanRequest};
 use calibrate::quadrature::{EffectiveQuadrature, MixtureSet, Quadrature, QuadratureFailure};
-use calibrate::validation::{ValidationPlan, leave_out};
-use calibrate::{FitRequest, FittingError, PigmentId, PreparedFit, Readings, ValidationRequest};
+use calibrate::validation::{ValidationPlan, leave_out_samples};
+use calibrate::{
+    FitRequest, FittingError, LeaveOut, PigmentId, PreparedFit, Readings, ValidationRequest,
+};
 use documents::hint::{Explain, Fault};
 use documents::{Cancellation, Cancelled, Task};
 use spectra::optics::Surface;
@@ -55,12 +57,13 @@ fn unseen_mixtures_with_white_or_black_meet_their_figures() {
         settings: &settings,
         viewing: &viewing,
         state: None,
+        leave_out: LeaveOut::Mixture,
         folds: None,
         task: &Task::default(),
     };
     // We do not leave out the four mixtures with both white and black: their errors are small and
     // would lower the mean.
-    let found = leave_out(&set, white, SURFACE, &plan, |o| {
+    let found = leave_out_samples(&set, white, SURFACE, &plan, |o| {
         (o.shares[white.index()] > 0.0) != (o.shares[black] > 0.0)
     })
     .unwrap();
@@ -91,10 +94,11 @@ fn leaving_out_in_groups_predicts_every_mixture_once() {
         settings: &settings,
         viewing: &viewing,
         state: None,
+        leave_out: LeaveOut::Mixture,
         folds: Some(5),
         task: &Task::default(),
     };
-    let found = leave_out(&set, white, SURFACE, &plan, |_| true).unwrap();
+    let found = leave_out_samples(&set, white, SURFACE, &plan, |_| true).unwrap();
     let mut names: Vec<&str> = found.per_sample.iter().map(|s| s.sample.as_str()).collect();
     names.extend(found.needed.iter().map(String::as_str));
     names.sort_unstable();

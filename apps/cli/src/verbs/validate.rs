@@ -20,8 +20,9 @@ use crate::request_options::{CommandLine, RequestOptions};
 
 /// Leave each mixture out in turn, refit, and predict it
 ///
-/// Measures the error of a calibration on mixtures that it was not fitted to. Masstones are never
-/// left out. A mixture without which a pigment could not be identified is named and not counted.
+/// Measures the error of a calibration on mixtures that it was not fitted to. With --leave-out you
+/// leave out masstones too, all films over a ground, all samples of one pigment, or a whole file. A
+/// sample without which a pigment could not be identified is named and not counted.
 #[derive(Debug, Args)]
 pub(crate) struct Validate {
     #[command(flatten)]
@@ -37,7 +38,7 @@ pub(crate) struct Validate {
     #[command(flatten)]
     viewing: ViewingOptions,
     /// Print JSON: samples, pigments, rms, delta_e, per_sample, shares_of_squares, warnings,
-    /// seconds, strength_free, by_pigment
+    /// seconds, strength_free, strengths, by_pigment
     #[arg(long)]
     json: bool,
     /// Print the error of every mixture as CSV
@@ -47,7 +48,11 @@ pub(crate) struct Validate {
 
 impl CommandLine for ValidationRequest {
     fn adapted(key: &str, option: Arg) -> Arg {
-        option.value_name(if key == "folds" { "N" } else { "PIGMENT" })
+        option.value_name(match key {
+            "folds" => "N",
+            "leave_out" => "WHAT",
+            _ => "PIGMENT",
+        })
     }
 }
 
@@ -93,6 +98,7 @@ impl Validate {
             let seconds = start.elapsed().as_secs_f64();
             let mut errors = fit::timed(validation.errors_json(), seconds);
             errors["strength_free"] = json!(validation.errors.strength_free);
+            errors["strengths"] = json!(validation.errors.strengths);
             errors["by_pigment"] = json!(validation.errors.by_pigment);
             return console.json(&errors);
         }

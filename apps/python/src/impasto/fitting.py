@@ -170,6 +170,7 @@ def fit(
 def validate(
     readings: Readings,
     *,
+    leave_out: str | None = None,
     folds: int | None = None,
     using: Sequence[str] = (),
     reference: str | None = None,
@@ -187,11 +188,15 @@ def validate(
 ) -> Validation:
     """Leaves each mixture out in turn, fits the rest, and predicts it, as `impasto validate` does.
 
+    `leave_out` is "mixture" (the default), "sample" (masstones too), "ground" (all films over a ground),
+    "pigment" (all samples of one pigment) or "file".
     `folds` deals the mixtures at random into this many groups (the same every time) and leaves out one
     group at a time; `using` names pigments, only mixtures with one of them are left out. `progress` is
     called with each stage of the fit, and after each mixture.
     """
-    request = json.dumps({"fit": _request(locals()), "folds": folds, "with": list(using)})
+    request = json.dumps(
+        {"fit": _request(locals()), "leave_out": leave_out, "folds": folds, "with": list(using)}
+    )
     light = light_of(illuminant)
     native = readings._native
     result = Validation(

@@ -42,6 +42,10 @@ pub struct FiniteProblem {
 pub struct MeasuredFilm {
     /// Name of the sample. If the sample has several films, the backing follows.
     pub name: String,
+    /// Index of its swatch.
+    pub swatch: usize,
+    /// Name of its backing.
+    pub backing: String,
     /// Pigments with their amounts on the area, above 0.
     pub recipe: Recipe,
     /// Measured reflectance of the film, as a fraction.

@@ -379,9 +379,14 @@ pub struct Paints {
     pub surface: Surface,
 }
 
+/// The [usual pigments](PigmentLibrary::usual_pigments) of a library, without those that were guessed from
+/// a colour.
+pub(crate) fn usual_pigments(library: &PigmentLibrary) -> Vec<PigmentId> {
+    library.usual_pigments().into_iter().filter(|id| !library[*id].guessed).collect()
+}
+
 impl Paints {
-    /// The pigments of `library` that `palette` names. If you pass an empty palette, these are all
-    /// pigments with measured K and S.
+    /// The pigments of `library` that `palette` names, or its [usual ones](usual_pigments).
     ///
     /// # Errors
     /// [`MapError::Name`] for a name that matches no pigment or several, [`MapError::Pigments`]
@@ -392,10 +397,7 @@ impl Paints {
         bands: &Bands,
     ) -> Result<Self, MapError> {
         let mut chosen: Vec<PigmentId> = if palette.is_empty() {
-            library
-                .ids()
-                .filter(|id: &PigmentId| library[*id].identified && !library[*id].guessed)
-                .collect()
+            usual_pigments(library)
         } else {
             palette.iter().map(|name| library.find(name)).collect::<Result<_, RecipeError>>()?
         };

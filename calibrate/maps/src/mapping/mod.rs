@@ -12,6 +12,7 @@ use pigment::library::{Input, Pigment, PigmentLibrary};
 use rayon::prelude::*;
 
 use crate::films::bands::Bands;
+use crate::films::film::usual_pigments;
 use crate::films::settings::{MapSettings, ModelError};
 use crate::pixel_maps::{BlockMaps, MapError, Mask};
 use crate::search::Scratch;
@@ -403,8 +404,9 @@ impl Mapper {
 /// Pigments of `library` that take no part because K and S of them were not measured, if the settings name no
 /// palette.
 fn left_out(library: &PigmentLibrary, settings: &MapSettings) -> Vec<String> {
-    let pigments = library.ids().map(|id| &library[id]).filter(|_| settings.palette.is_empty());
-    pigments.filter(|pigment| why_unknown(pigment).is_some()).map(|p| p.name.clone()).collect()
+    let usual = usual_pigments(library);
+    let others = library.ids().filter(|id| settings.palette.is_empty() && !usual.contains(id));
+    others.map(|id| library[id].name.clone()).collect()
 }
 
 /// Why K and S of a pigment are not known, and how you measure them.

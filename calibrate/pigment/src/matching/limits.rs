@@ -70,7 +70,7 @@ pub struct RecipeLimits {
 }
 
 impl RecipeLimits {
-    /// Limits with all identified pigments of `library`, up to four in a recipe, shares from 1/50, amounts
+    /// Limits with the [usual pigments](PigmentLibrary::usual_pigments) of `library`, up to four in a recipe, shares from 1/50, amounts
     /// as they were measured, and five recipes.
     #[must_use]
     pub fn new(
@@ -82,7 +82,7 @@ impl RecipeLimits {
             conditions,
             metric: Metric::default(),
             film,
-            allowed: library.ids().filter(|id| library[*id].identified).collect(),
+            allowed: library.usual_pigments(),
             required: Vec::new(),
             at_most: 4,
             least_share: 0.02,

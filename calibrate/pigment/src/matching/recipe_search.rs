@@ -13,10 +13,15 @@ use super::target::{ColorTarget, Metric, SpectralTarget, Target, TargetColor, Vi
 use crate::color::IlluminantChange;
 use crate::evaluate::{Remark, WANTED_NM, check_visible_band};
 use crate::library::{AmountKind, PigmentLibrary};
+use crate::recipe::PigmentId;
 
 /// We count a target as reached up to this distance, in CIEDE2000 or percent of reflectance. You clearly
 /// see larger differences side by side. We chose it by eye.
 const REACHED: f64 = 1.0;
+
+/// A recipe with pigments of unknown S must be nearer by this, in CIEDE2000 or percent of reflectance.
+/// You see such a difference side by side. We chose it by eye.
+const VISIBLE: f64 = 0.5;
 
 /// Least share of the recipes that we search if the usual one keeps a target from being reached: about a
 /// drop of a strong colour in a pot.
@@ -32,6 +37,8 @@ const FAR: f64 = 5.0;
 #[derive(Debug, Clone)]
 pub struct RecipeSearch<'a> {
     pub(super) library: &'a PigmentLibrary,
+    /// Pigments of unknown S, for targets that the allowed ones do not reach.
+    unknown: Vec<PigmentId>,
     /// Limits of the recipes.
     pub limits: RecipeLimits,
     /// Origin of the tolerance.
@@ -109,7 +116,8 @@ impl PigmentLibrary {
     pub fn recipe_search(&self, options: &MatchRequest) -> Result<RecipeSearch<'_>, MatchError> {
         let (limits, remarks) = options.limits(self)?;
         let tolerance_origin = options.tolerance_for(self).1;
-        Ok(RecipeSearch { library: self, limits, tolerance_origin, remarks })
+        let unknown = options.unknown(self, &limits)?;
+        Ok(RecipeSearch { library: self, unknown, limits, tolerance_origin, remarks })
     }
 }
 
@@ -149,7 +157,8 @@ impl MatchRequest {
 
 impl RecipeSearch<'_> {
     /// Searches recipes for one target. `task` counts the sets of pigments that we tried in the first of
-    /// the searches that a target may take.
+    /// the searches that a target may take. If the pigments do not reach the target, and those of unknown
+    /// S come nearer, the nearest recipe with them is the last one.
     ///
     /// # Errors
     /// [`MatchError`] if no recipe fits the options, a spectrum has no visible wavelength, or `task` was
@@ -186,7 +195,38 @@ impl RecipeSearch<'_> {
             let limits = RecipeLimits { metric, count: 1, ..self.limits.clone() };
             matches.by_cie1976 = recipes(self.library, &matches.target, &limits, &further)?;
         }
+        self.add_guess(&mut matches, &further)?;
         Ok(matches)
+    }
+
+    /// Adds the nearest recipe with pigments of unknown S, if only they bring a recipe visibly nearer to a
+    /// target that is not reached.
+    fn add_guess(&self, matches: &mut RecipeMatches, task: &Task) -> Result<(), MatchError> {
+        if matches.is_reached() || self.unknown.is_empty() {
+            return Ok(());
+        }
+        let allowed = [&self.limits.allowed[..], &self.unknown].concat();
+        let limits = RecipeLimits { allowed, count: 1, tolerance: 0.0, ..self.limits.clone() };
+        let found = recipes(self.library, &matches.target, &limits, task)?;
+        let known = matches.below_least.iter().map(|recipe| recipe.distance);
+        let nearest = known.fold(matches.nearest(), f64::min);
+        let Some(guess) = found.into_iter().find(|found| found.distance < nearest - VISIBLE) else {
+            return Ok(());
+        };
+        let names: Vec<&str> = guess
+            .shares
+            .iter()
+            .filter(|(id, _)| self.unknown.contains(id))
+            .map(|(id, _)| self.library[*id].name.as_str())
+            .collect();
+        let text = format!(
+            "the last recipe is a guess: S is not known of {}, only assumed from the masstone",
+            names.join(", ")
+        );
+        let hint = "measure a tint with white and fit again";
+        matches.remarks.push(Remark::warning(text).with_hint(hint));
+        matches.recipes.push(guess);
+        Ok(())
     }
 
     /// The plainest recipe with smaller shares than the least one that reaches the target, or else the nearest

@@ -302,10 +302,29 @@ impl MatchRequest {
             remarks.push(Remark::warning(text));
         }
         if !left_out.is_empty() && self.only.is_empty() {
-            let text = format!("left out, their S is not known: {}", left_out.join(", "));
+            let text = format!(
+                "S is not known of {}; we use them only for colours that the other pigments do not reach",
+                left_out.join(", ")
+            );
             remarks.push(Remark::note(text));
         }
         Ok(())
+    }
+}
+
+impl MatchRequest {
+    /// Pigments of unknown S that take no part, and were neither left out nor named.
+    pub(super) fn unknown(
+        &self,
+        library: &PigmentLibrary,
+        limits: &RecipeLimits,
+    ) -> Result<Vec<PigmentId>, MatchError> {
+        if !self.only.is_empty() {
+            return Ok(Vec::new());
+        }
+        let without = find_all(library, &self.without)?;
+        let others = library.ids().filter(|id| !limits.allowed.contains(id));
+        Ok(others.filter(|id| !without.contains(id)).collect())
     }
 }
 
