@@ -1,0 +1,293 @@
+//! Tinting strength of mixtures that were left out of a fit. It shows a paint that is stronger or
+//! weaker than the fit of the other samples says, and a white that was weighed wrongly.
+//!
+//! Errors of single weighings scatter around a factor of 1. If one factor instead multiplies the
+//! amount of a pigment in all mixtures of a file, then that paint came from another batch. If it
+//! multiplies the amounts of all pigments beside the white, then the white was weighed wrongly, or
+//! is from another batch.
+
+use pigment::evaluate::delta_e;
+use pigment::{Curves, PigmentId};
+use serde::Serialize;
+use spectra::optics::Surface;
+use spectra::{Grid, TristimulusWeights};
+
+/// We try this many factors of the strength, from 1/4 to 4, evenly spaced in their logarithm.
+const STRENGTHS: i32 = 33;
+/// We refine the best factor in this many steps. Each step halves the distance at which we try two
+/// other factors.
+const HALVINGS: usize = 12;
+/// We name a factor only if it differs from 1 by at least this. Weighing by hand is hardly better
+/// (chosen by eye).
+const LEAST_CHANGE: f64 = 0.05;
+/// We name a factor only if it lowers the mean error by at least this share (chosen by eye).
+const LEAST_GAIN: f64 = 0.1;
+/// We name a factor only for at least this many mixtures.
+const LEAST_MIXTURES: usize = 3;
+/// Student's t that chance exceeds in 1 % of cases, by degrees of freedom from 2 on. Beyond the
+/// table we take the last.
+const STUDENT: [f64; 9] = [9.92, 5.84, 4.60, 4.03, 3.71, 3.50, 3.36, 3.25, 3.17];
+/// Standard deviation of a median of normal values, relative to their median absolute deviation and
+/// without the root of their number.
+const MEDIAN_SD: f64 = 1.253 * 1.483;
+/// Sensitivity of a colour to the strength is its change over this step of the logarithm.
+const STEP: f64 = 0.1;
+
+/// A common factor of the strength of a pigment, or of all pigments, in some mixtures.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct StrengthChange {
+    /// Pigment that is stronger or weaker, or `None` for all pigments beside the white. In mixtures
+    /// without the white, these are all beside the pigment with the largest share.
+    pub pigment: Option<String>,
+    /// File of these mixtures.
+    pub file: String,
+    /// Number of mixtures.
+    pub mixtures: usize,
+    /// The pigment acts as if there were this many times as much of it.
+    pub factor: f64,
+    /// Relative standard error of `factor`. We estimate it from how far the best factors of the
+    /// single mixtures differ.
+    pub deviation: f64,
+    /// Mean colour error of these mixtures in CIEDE2000: as predicted, and with the factor.
+    pub delta_e: [f64; 2],
+}
+
+/// A mixture that was left out, with the parts from which its film is predicted.
+#[derive(Debug, Clone)]
+pub(crate) struct Mixed<'a> {
+    /// File of its first reading.
+    pub(crate) file: &'a str,
+    /// Measured reflectance.
+    pub(crate) measured: &'a [f64],
+    /// White of the mixture, else the pigment with the largest share.
+    pub(crate) base: PigmentId,
+    /// Each pigment with its share, and its K and S by the fit of the other samples.
+    pub(crate) parts: Vec<(PigmentId, f64, Curves)>,
+}
+
+/// How films of left-out mixtures are predicted and seen.
+#[derive(Clone, Copy)]
+pub(crate) struct Strengths<'a> {
+    pub(crate) grid: Grid,
+    pub(crate) surface: Surface,
+    pub(crate) weights: &'a TristimulusWeights,
+}
+
+/// A factor of one pigment, or of all pigments but the base of each mixture.
+#[derive(Clone, Copy)]
+struct Factor {
+    of: Option<PigmentId>,
+    factor: f64,
+}
+
+impl Factor {
+    fn at(self, mixed: &Mixed<'_>, pigment: PigmentId) -> f64 {
+        let is_changed = self.of.map_or(pigment != mixed.base, |one| one == pigment);
+        if is_changed { self.factor } else { 1.0 }
+    }
+
+    /// Whether it changes the shares of some pigments of a mixture, and not of all.
+    fn changes(self, mixed: &Mixed<'_>) -> bool {
+        let changed = |(pigment, _, _): &&(PigmentId, f64, Curves)| match self.of {
+            None => *pigment != mixed.base,
+            Some(one) => *pigment == one,
+        };
+        let count = mixed.parts.iter().filter(changed).count();
+        count > 0 && count < mixed.parts.len()
+    }
+}
+
+impl Strengths<'_> {
+    /// Film of a mixture that hides, with the shares of its pigments multiplied by `factors`.
+    pub(crate) fn film(self, mixed: &Mixed<'_>, factors: &[Factor]) -> Vec<f64> {
+        let parts = mixed.parts.iter().map(|(pigment, share, curves)| {
+            let (absorption, scattering) = curves.as_slices();
+            let factor: f64 = factors.iter().map(|factor| factor.at(mixed, *pigment)).product();
+            (share * factor, absorption, scattering)
+        });
+        Curves::weighted_sum(self.grid, parts).hiding(self.surface)
+    }
+
+    fn error(self, mixed: &Mixed<'_>, factors: &[Factor]) -> f64 {
+        delta_e(self.weights, mixed.measured, &self.film(mixed, factors))
+    }
+
+    /// Least colour error of any common factor from 1/4 to 4 of all pigments but the base.
+    pub(crate) fn least_error(self, mixed: &Mixed<'_>) -> f64 {
+        self.best(mixed, &[], None).0
+    }
+
+    /// Least colour error of any factor from 1/4 to 4, and the factor's logarithm. `known` factors
+    /// apply too.
+    fn best(self, mixed: &Mixed<'_>, known: &[Factor], of: Option<PigmentId>) -> (f64, f64) {
+        let mut factors = known.to_vec();
+        factors.push(Factor { of, factor: 1.0 });
+        let mut at = |log: f64| {
+            factors.last_mut().expect("one was pushed").factor = log.exp();
+            (self.error(mixed, &factors), log)
+        };
+        let range = 4f64.ln();
+        let last = f64::from(STRENGTHS - 1);
+        let coarse = (0..STRENGTHS).map(|i| range * (2.0 * f64::from(i) / last - 1.0));
+        let mut best = coarse.map(&mut at).reduce(lower_error).expect("there are strengths");
+        let mut step = range / last;
+        for _ in 0..HALVINGS {
+            best = [best.1 - step, best.1 + step].map(&mut at).into_iter().fold(best, lower_error);
+            step /= 2.0;
+        }
+        best
+    }
+
+    /// Factors that the mixtures have in common, file by file. In each file we look first for a
+    /// factor of all pigments beside the white, then for single pigments, each time the one with
+    /// the largest gain. `pigments` are the names, and `white` is the reference white.
+    pub(crate) fn changes(
+        self,
+        mixtures: &[&Mixed<'_>],
+        pigments: &[String],
+        white: PigmentId,
+    ) -> Vec<StrengthChange> {
+        let mut files: Vec<&str> = Vec::new();
+        for mixed in mixtures {
+            if !files.contains(&mixed.file) {
+                files.push(mixed.file);
+            }
+        }
+        let mut changes = Vec::new();
+        for file in files {
+            let of_file: Vec<&Mixed<'_>> =
+                mixtures.iter().copied().filter(|m| m.file == file).collect();
+            let all = self.change(&of_file, &[], None);
+            let mut known: Vec<Factor> = all.iter().map(|change| change.factor).collect();
+            changes.extend(all.map(|change| change.told(file, pigments)));
+            let mut open: Vec<PigmentId> =
+                (0..pigments.len()).map(PigmentId).filter(|id| *id != white).collect();
+            while let Some(change) = (open.iter())
+                .filter_map(|&id| self.change(&of_file, &known, Some(id)))
+                .max_by(|a, b| a.gain().total_cmp(&b.gain()))
+            {
+                known.push(change.factor);
+                open.retain(|id| Some(*id) != change.factor.of);
+                changes.push(change.told(file, pigments));
+            }
+        }
+        changes
+    }
+
+    /// The factor of some pigments that the mixtures have in common beside the `known` ones. `None`
+    /// if chance explains it, or it would change little.
+    fn change(
+        self,
+        mixtures: &[&Mixed<'_>],
+        known: &[Factor],
+        of: Option<PigmentId>,
+    ) -> Option<Change> {
+        let with = |log: f64| {
+            let mut factors = known.to_vec();
+            factors.push(Factor { of, factor: log.exp() });
+            factors
+        };
+        let changed: Vec<&Mixed<'_>> = mixtures
+            .iter()
+            .copied()
+            .filter(|mixed| with(0.0)[known.len()].changes(mixed))
+            .collect();
+        if changed.len() < LEAST_MIXTURES {
+            return None;
+        }
+        // A mixture in which the strength hardly shows tells little of it.
+        let [weaker, stronger] = [with(-STEP), with(STEP)];
+        let weighed: Vec<(f64, f64)> = changed
+            .iter()
+            .map(|mixed| {
+                let [low, high] = [&weaker, &stronger].map(|factors| self.film(mixed, factors));
+                let slope = delta_e(self.weights, &low, &high) / (2.0 * STEP);
+                (slope * slope, self.best(mixed, known, of).1)
+            })
+            .collect();
+        let total: f64 = weighed.iter().map(|(weight, _)| weight).sum();
+        let squares: f64 = weighed.iter().map(|(weight, _)| weight * weight).sum();
+        // Mixtures of unequal weight count as fewer of equal weight (Kish 1965, section 11.7).
+        let effective = total * total / squares;
+        // Medians, because another paint of some mixtures may differ too.
+        let center = weighted_median(weighed.clone());
+        let distances = weighed.iter().map(|(weight, log)| (*weight, (log - center).abs()));
+        let deviation = MEDIAN_SD * weighted_median(distances.collect()) / effective.sqrt();
+        let freedom = (effective - 1.0).round() as usize;
+        let limit = STUDENT[freedom.checked_sub(2)?.min(STUDENT.len() - 1)];
+        let factors = with(center);
+        let errors = |factors: &[Factor]| -> f64 {
+            let sum: f64 = changed.iter().map(|mixed| self.error(mixed, factors)).sum();
+            sum / changed.len() as f64
+        };
+        let delta_e = [errors(known), errors(&factors)];
+        let is_clear = center.abs() > limit * deviation && center.abs() > LEAST_CHANGE.ln_1p();
+        (is_clear && delta_e[1] < (1.0 - LEAST_GAIN) * delta_e[0]).then_some(Change {
+            factor: factors[known.len()],
+            mixtures: changed.len(),
+            deviation,
+            delta_e,
+        })
+    }
+}
+
+/// A [`StrengthChange`] without names.
+#[derive(Clone, Copy)]
+struct Change {
+    factor: Factor,
+    mixtures: usize,
+    deviation: f64,
+    delta_e: [f64; 2],
+}
+
+impl Change {
+    /// By how much it lowers the sum of the errors.
+    fn gain(&self) -> f64 {
+        self.mixtures as f64 * (self.delta_e[0] - self.delta_e[1])
+    }
+
+    fn told(self, file: &str, pigments: &[String]) -> StrengthChange {
+        let Self { factor, mixtures, deviation, delta_e } = self;
+        StrengthChange {
+            pigment: factor.of.map(|id| pigments[id.index()].clone()),
+            file: file.to_owned(),
+            mixtures,
+            factor: factor.factor,
+            deviation,
+            delta_e,
+        }
+    }
+}
+
+impl std::fmt::Display for StrengthChange {
+    /// Writes a sentence without a full stop.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { pigment, file, mixtures, factor, deviation, delta_e: [before, after] } = self;
+        let (what, advice) = match pigment {
+            Some(name) => (name.as_str(), "is the paint from another batch?"),
+            None => ("all pigments beside the white", "was the white weighed wrongly?"),
+        };
+        write!(
+            f,
+            "strength: in {mixtures} mixtures of {file}, {what} {} as {factor:.2} times the amount (standard error {:.0} %); with this factor their mean error is {after:.2} instead of {before:.2}; {advice}",
+            if pigment.is_some() { "acts" } else { "act" },
+            100.0 * deviation
+        )
+    }
+}
+
+/// The value at half of the weight. Each pair is a weight and a value.
+fn weighted_median(mut pairs: Vec<(f64, f64)>) -> f64 {
+    pairs.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let half = pairs.iter().map(|(weight, _)| weight).sum::<f64>() / 2.0;
+    let mut passed = 0.0;
+    let upper = pairs.iter().find(|(weight, _)| {
+        passed += weight;
+        passed >= half
+    });
+    upper.map_or(0.0, |(_, value)| *value)
+}
+
+fn lower_error(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
+    if b.0 < a.0 { b } else { a }
+}
