@@ -90,10 +90,11 @@ impl ToneLadder {
             tolerance: Some(USUAL_TOLERANCE),
             ..MatchRequest::default()
         };
-        let search = library.recipe_search(&options)?;
-        let base = matched(&search, code.lab())?.0;
-        let darkest = farthest(&search, base, 0.0)?;
-        let lightest = farthest(&search, base, 100.0)?;
+        let traces = MatchRequest { least_share: Some(0.0), ..options.clone() };
+        let searches = [library.recipe_search(&options)?, library.recipe_search(&traces)?];
+        let base = matched(&searches[0], code.lab())?.0;
+        let darkest = farthest(&searches, base, 0.0)?;
+        let lightest = farthest(&searches, base, 100.0)?;
         let span = lightest - darkest - 2.0 * margin;
         if span <= count as f64 {
             return Err(TonesError::Narrow { hue: hue.to_owned(), darkest, lightest, margin });
@@ -109,7 +110,7 @@ impl ToneLadder {
             *slot = Some(pigment);
         }
         let rungs = wanted.map(|lightness| {
-            let (lab, recipe) = mixture_at(&search, base, lightness)?;
+            let (lab, recipe) = mixture_at(&searches, base, lightness)?;
             let total = recipe.total();
             let shares = slots.map(|slot| slot.map_or(0.0, |id| recipe.parts_of(id) / total));
             Ok(Tone { lab, shares })
@@ -241,9 +242,25 @@ fn shaded(base: Lab, lightness: f64) -> Lab {
     Lab { lightness, a: share * base.a, b: share * base.b }
 }
 
-/// The mixture of a hue with this L*, and the colour that it has. We search for the chroma of an
-/// even shade or tint. If paints do not reach it, we lower it.
+/// The mixture of a hue with this L*, and the colour that it has. We use the first search. If the
+/// least share of a strong pigment leaves a gap in L*, we use the second one, which takes traces.
 fn mixture_at(
+    [usual, traces]: &[RecipeSearch<'_>; 2],
+    base: Lab,
+    lightness: f64,
+) -> Result<(Lab, Recipe), TonesError> {
+    let found = faded_mixture(usual, base, lightness)?;
+    let off = |found: &(Lab, Recipe)| (found.0.lightness - lightness).abs();
+    if off(&found) <= LIGHTNESS_TOLERANCE {
+        return Ok(found);
+    }
+    let traced = faded_mixture(traces, base, lightness)?;
+    Ok(if off(&traced) < off(&found) { traced } else { found })
+}
+
+/// The mixture of a hue near this L*, and the colour that it has. We search for the chroma of an
+/// even shade or tint. If paints do not reach it, we lower it.
+fn faded_mixture(
     search: &RecipeSearch<'_>,
     base: Lab,
     lightness: f64,
@@ -271,12 +288,12 @@ fn matched(search: &RecipeSearch<'_>, lab: Lab) -> Result<(Lab, Recipe), TonesEr
 }
 
 /// Searches from `base` towards `end` for the farthest L* at which a mixture keeps the hue.
-fn farthest(search: &RecipeSearch<'_>, base: Lab, end: f64) -> Result<f64, TonesError> {
+fn farthest(searches: &[RecipeSearch<'_>; 2], base: Lab, end: f64) -> Result<f64, TonesError> {
     let mut kept = base.lightness;
     let mut lost = end;
     for _ in 0..BISECTIONS {
         let lightness = (kept + lost) / 2.0;
-        let (found, _) = mixture_at(search, base, lightness)?;
+        let (found, _) = mixture_at(searches, base, lightness)?;
         fn chroma(lab: Lab) -> f64 {
             lab.to_lch().chroma
         }
