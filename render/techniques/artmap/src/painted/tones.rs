@@ -93,8 +93,8 @@ impl ToneLadder {
         let traces = MatchRequest { least_share: Some(0.0), ..options.clone() };
         let searches = [library.recipe_search(&options)?, library.recipe_search(&traces)?];
         let base = matched(&searches[0], code.lab())?.0;
-        let darkest = farthest(&searches, base, 0.0)?;
-        let lightest = farthest(&searches, base, 100.0)?;
+        let darkest = farthest(&searches[0], base, 0.0)?;
+        let lightest = farthest(&searches[0], base, 100.0)?;
         let span = lightest - darkest - 2.0 * margin;
         if span <= count as f64 {
             return Err(TonesError::Narrow { hue: hue.to_owned(), darkest, lightest, margin });
@@ -288,12 +288,12 @@ fn matched(search: &RecipeSearch<'_>, lab: Lab) -> Result<(Lab, Recipe), TonesEr
 }
 
 /// Searches from `base` towards `end` for the farthest L* at which a mixture keeps the hue.
-fn farthest(searches: &[RecipeSearch<'_>; 2], base: Lab, end: f64) -> Result<f64, TonesError> {
+fn farthest(search: &RecipeSearch<'_>, base: Lab, end: f64) -> Result<f64, TonesError> {
     let mut kept = base.lightness;
     let mut lost = end;
     for _ in 0..BISECTIONS {
         let lightness = (kept + lost) / 2.0;
-        let (found, _) = mixture_at(searches, base, lightness)?;
+        let (found, _) = faded_mixture(search, base, lightness)?;
         fn chroma(lab: Lab) -> f64 {
             lab.to_lch().chroma
         }
