@@ -1,6 +1,7 @@
 //! Sections on the fit: measured and fitted reflectance, colour errors, mixtures left out, residuals, and K
 //! and S.
 
+use calibrate::StrengthChange;
 use calibrate::comparison::{ComparedFilm, Comparison};
 use calibrate::evaluate::{Summary, percentile};
 use calibrate::library::SampleEvidence;
@@ -417,6 +418,9 @@ pub(crate) fn left_out_section(subject: &Subject<'_>) -> Section {
             "Not left out, since a pigment would not be identified without them: {needed}."
         ))
     };
+    let section = validation.strengths.iter().fold(section, |section, change: &StrengthChange| {
+        section.with_paragraph(format!("Strength: {change}."))
+    });
     section.with_figure(left_out_figure(subject, &pairs))
 }
 

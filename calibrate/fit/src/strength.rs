@@ -6,6 +6,8 @@
 //! multiplies the amounts of all pigments beside the white, then the white was weighed wrongly, or
 //! is from another batch.
 
+use std::fmt;
+
 use pigment::evaluate::delta_e;
 use pigment::{Curves, PigmentId};
 use serde::Serialize;
@@ -259,18 +261,17 @@ impl Change {
     }
 }
 
-impl std::fmt::Display for StrengthChange {
+impl fmt::Display for StrengthChange {
     /// Writes a sentence without a full stop.
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { pigment, file, mixtures, factor, deviation, delta_e: [before, after] } = self;
         let (what, advice) = match pigment {
-            Some(name) => (name.as_str(), "is the paint from another batch?"),
-            None => ("all pigments beside the white", "was the white weighed wrongly?"),
+            Some(name) => (name.as_str(), "is this paint from another batch?"),
+            None => ("everything beside the white", "was the white weighed wrongly?"),
         };
         write!(
             f,
-            "strength: in {mixtures} mixtures of {file}, {what} {} as {factor:.2} times the amount (standard error {:.0} %); with this factor their mean error is {after:.2} instead of {before:.2}; {advice}",
-            if pigment.is_some() { "acts" } else { "act" },
+            "in {mixtures} mixtures of {file}, {what} acts as if there were {factor:.2} times as much (standard error {:.0} %). With this factor their mean error is {after:.2} instead of {before:.2}: {advice}",
             100.0 * deviation
         )
     }

@@ -500,7 +500,7 @@ impl FitValidation {
         let strength = self.errors.strength_free.map(|free| {
             format!("with the strength of each mixture free the mean would be {:.2}", free.mean)
         });
-        let common = self.errors.strengths.iter().map(ToString::to_string);
+        let common = self.errors.strengths.iter().map(|change| format!("strength: {change}"));
         by_pigment.into_iter().chain(strength).chain(common).collect()
     }
 

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use calibrate::library::AmountKind;
 use calibrate::remark::Remark;
-use calibrate::{FittingError, ValidationRequest};
+use calibrate::{FittingError, LeaveOut, ValidationRequest};
 use clap::{Arg, Args};
 use serde_json::json;
 
@@ -68,6 +68,11 @@ impl Validate {
         }
         if self.residuals.is_some() && options.fit.amounts == AmountKind::Absolute {
             return Err(FittingError::AbsoluteResiduals.into());
+        }
+        if self.residuals.is_some()
+            && options.leave_out.is_some_and(|leave_out| leave_out != LeaveOut::Mixture)
+        {
+            return Err(FittingError::ResidualsOfMixtures.into());
         }
         let residuals = self
             .residuals
