@@ -100,8 +100,13 @@ impl Factor {
 }
 
 impl Strengths<'_> {
+    /// Film of a mixture that hides.
+    pub(crate) fn film(self, mixed: &Mixed<'_>) -> Vec<f64> {
+        self.film_with(mixed, &[])
+    }
+
     /// Film of a mixture that hides, with the shares of its pigments multiplied by `factors`.
-    pub(crate) fn film(self, mixed: &Mixed<'_>, factors: &[Factor]) -> Vec<f64> {
+    fn film_with(self, mixed: &Mixed<'_>, factors: &[Factor]) -> Vec<f64> {
         let parts = mixed.parts.iter().map(|(pigment, share, curves)| {
             let (absorption, scattering) = curves.as_slices();
             let factor: f64 = factors.iter().map(|factor| factor.at(mixed, *pigment)).product();
@@ -111,7 +116,7 @@ impl Strengths<'_> {
     }
 
     fn error(self, mixed: &Mixed<'_>, factors: &[Factor]) -> f64 {
-        delta_e(self.weights, mixed.measured, &self.film(mixed, factors))
+        delta_e(self.weights, mixed.measured, &self.film_with(mixed, factors))
     }
 
     /// Least colour error of any common factor from 1/4 to 4 of all pigments but the base.
@@ -202,7 +207,8 @@ impl Strengths<'_> {
         let weighed: Vec<(f64, f64)> = changed
             .iter()
             .map(|mixed| {
-                let [low, high] = [&weaker, &stronger].map(|factors| self.film(mixed, factors));
+                let [low, high] =
+                    [&weaker, &stronger].map(|factors| self.film_with(mixed, factors));
                 let slope = delta_e(self.weights, &low, &high) / (2.0 * STEP);
                 (slope * slope, self.best(mixed, known, of).1)
             })

@@ -167,7 +167,7 @@ pub fn leave_out_samples(
             let refit = refit.as_ref().filter(|refit| refit.identifies(target));
             let predicted = refit.map(|refit| {
                 let mixed = refit.mixed(target, reference, &set.swatches[index].file);
-                let film = strengths.film(&mixed, &[]);
+                let film = strengths.film(&mixed);
                 let is_mixture = mixed.parts.len() > 1;
                 let strength_free = is_mixture.then(|| strengths.least_error(&mixed));
                 Predicted { film, strength_free, mixed: is_mixture.then_some(mixed) }

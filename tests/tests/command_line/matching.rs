@@ -393,9 +393,10 @@ fn a_batch_that_lacks_blue_is_told_how_much() {
     let json = impasto(&[&all[..], &["--json", "--at-most", "1"]].concat()).json();
     let first = &json["corrections"][0];
     assert_eq!(first["additions"][0]["name"], "Cobalt Blue");
-    // 12 parts to 88 instead of 8 are 23 g more. Less is within the tolerance.
+    // 12 parts to 88 instead of 8 are 23 g more, or a little more if the blue is also weak. Less is within
+    // the tolerance.
     let grams = first["grams"].as_f64().unwrap();
-    assert!((10.0..23.0).contains(&grams), "{grams}");
+    assert!((10.0..26.0).contains(&grams), "{grams}");
     assert!(first["delta_e"]["D65"].as_f64().unwrap() <= 0.5, "{first}");
     let expected = first["expected"].as_f64().unwrap();
     assert!(expected > first["distance"].as_f64().unwrap() && expected < 1.0, "{first}");

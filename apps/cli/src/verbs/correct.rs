@@ -49,10 +49,10 @@ pub(crate) struct Correct {
     #[arg(long, value_name = "GRAMS", allow_hyphen_values = true, display_order = 1)]
     grams: Option<f64>,
     /// Grams of a pigment that were added to the pot since the reading --before (may be repeated)
-    #[arg(long, value_name = "PIGMENT=GRAMS", num_args = 1.., display_order = 2, requires = "before")]
+    #[arg(long, value_name = "PIGMENT=GRAMS", num_args = 1.., display_order = 2)]
     added: Vec<String>,
     /// Reading of the pot before --added, FILE or FILE#SAMPLE
-    #[arg(long, value_name = "FILE", display_order = 3, requires = "added")]
+    #[arg(long, value_name = "FILE", display_order = 3)]
     before: Option<String>,
     /// Light, as in `color`, with its weight where there are several (may be repeated)
     #[arg(long, value_name = "LIGHT[=WEIGHT]", default_value = "D65")]
@@ -104,6 +104,12 @@ impl Correct {
             one(target, "a target", targets(target, &self.target, &self.reading, console)?)?;
         let made = amounts("--made", &self.made)?;
         let added = amounts("--added", &self.added)?;
+        if self.before.is_some() == added.is_empty() {
+            return Err(Failure::usage(
+                "a second correction needs the reading before the first one, and what was added after it",
+                "give both: --before FILE#SAMPLE --added PIGMENT=GRAMS",
+            ));
+        }
         let in_pot = made.iter().chain(&added).map(|(_, grams)| grams);
         let grams = self.grams.unwrap_or_else(|| in_pot.sum());
         let reflectance = self.batch_spectrum(pot, console)?;
