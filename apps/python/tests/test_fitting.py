@@ -150,6 +150,17 @@ def test_left_out_mixtures_are_those_of_the_program(readings: im.Readings) -> No
     assert str(validation).startswith(f"{len(validation.samples)} mixtures, left out in 3 groups")
 
 
+def test_masstones_are_left_out_pigment_by_pigment(readings: im.Readings) -> None:
+    with pytest.warns(im.FindingWarning):
+        validation = im.validate(readings, leave_out="pigment", method="weighted")
+    assert "left out pigment by pigment" in str(validation)
+    assert len(validation.samples) > 10 and validation.strengths == []
+    with pytest.raises(im.FitError, match="left out by themselves"):
+        _ = validation.residuals
+    with pytest.raises(im.FitError, match="ground"):
+        im.validate(readings, leave_out="ground")
+
+
 def test_residuals_are_those_of_the_program(readings: im.Readings, tmp_path: Path) -> None:
     validation = im.validate(readings, surface=im.Surface(), below_surface="floor")
     residuals = validation.residuals

@@ -45,6 +45,8 @@ pub struct StrengthChange {
     pub file: String,
     /// Number of mixtures.
     pub mixtures: usize,
+    /// Least and greatest number of pigments of the mixtures.
+    pub sizes: [usize; 2],
     /// The pigment acts as if there were this many times as much of it.
     pub factor: f64,
     /// Relative standard error of `factor`. We estimate it from how far the best factors of the
@@ -145,32 +147,31 @@ impl Strengths<'_> {
         best
     }
 
-    /// Factors that the mixtures have in common, file by file. In each file we look first for a
-    /// factor of all pigments beside the white, then for single pigments, each time the one with
-    /// the largest gain. `pigments` are the names, and `white` is the reference white.
+    /// Factors that the mixtures have in common, file by file, and in each file those of two
+    /// pigments and those of more. We look first for a factor of all pigments beside the white,
+    /// then for single pigments, each time the one with the largest gain. `pigments` are the names, and `white` is the reference white.
     pub(crate) fn changes(
         self,
         mixtures: &[&Mixed<'_>],
         pigments: &[String],
         white: PigmentId,
     ) -> Vec<StrengthChange> {
-        let mut files: Vec<&str> = Vec::new();
-        for mixed in mixtures {
-            if !files.contains(&mixed.file) {
-                files.push(mixed.file);
+        let mut groups: Vec<(&str, Vec<&Mixed<'_>>)> = Vec::new();
+        for mixed in mixtures.iter().copied() {
+            match groups.iter_mut().find(|(file, _)| *file == mixed.file) {
+                Some((_, group)) => group.push(mixed),
+                None => groups.push((mixed.file, vec![mixed])),
             }
         }
         let mut changes = Vec::new();
-        for file in files {
-            let of_file: Vec<&Mixed<'_>> =
-                mixtures.iter().copied().filter(|m| m.file == file).collect();
-            let all = self.change(&of_file, &[], None);
+        for (file, group) in groups.into_iter().flat_map(|(file, group)| split(file, group)) {
+            let all = self.change(&group, &[], None);
             let mut known: Vec<Factor> = all.iter().map(|change| change.factor).collect();
             changes.extend(all.map(|change| change.told(file, pigments)));
             let mut open: Vec<PigmentId> =
                 (0..pigments.len()).map(PigmentId).filter(|id| *id != white).collect();
             while let Some(change) = (open.iter())
-                .filter_map(|&id| self.change(&of_file, &known, Some(id)))
+                .filter_map(|&id| self.change(&group, &known, Some(id)))
                 .max_by(|a, b| a.gain().total_cmp(&b.gain()))
             {
                 known.push(change.factor);
@@ -233,6 +234,7 @@ impl Strengths<'_> {
         (is_clear && delta_e[1] < (1.0 - LEAST_GAIN) * delta_e[0]).then_some(Change {
             factor: factors[known.len()],
             mixtures: changed.len(),
+            sizes: sizes(&changed),
             deviation,
             delta_e,
         })
@@ -244,6 +246,7 @@ impl Strengths<'_> {
 struct Change {
     factor: Factor,
     mixtures: usize,
+    sizes: [usize; 2],
     deviation: f64,
     delta_e: [f64; 2],
 }
@@ -255,11 +258,12 @@ impl Change {
     }
 
     fn told(self, file: &str, pigments: &[String]) -> StrengthChange {
-        let Self { factor, mixtures, deviation, delta_e } = self;
+        let Self { factor, mixtures, sizes, deviation, delta_e } = self;
         StrengthChange {
             pigment: factor.of.map(|id| pigments[id.index()].clone()),
             file: file.to_owned(),
             mixtures,
+            sizes,
             factor: factor.factor,
             deviation,
             delta_e,
@@ -270,17 +274,38 @@ impl Change {
 impl fmt::Display for StrengthChange {
     /// Writes a sentence without a full stop.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { pigment, file, mixtures, factor, deviation, delta_e: [before, after] } = self;
+        let Self { pigment, file, mixtures, sizes, factor, deviation, delta_e } = self;
+        let ([least, most], [before, after]) = (sizes, delta_e);
+        let sizes = if least == most { least.to_string() } else { format!("{least} to {most}") };
         let (what, advice) = match pigment {
             Some(name) => (name.as_str(), "is this paint from another batch?"),
             None => ("everything beside the white", "was the white weighed wrongly?"),
         };
         write!(
             f,
-            "in {mixtures} mixtures of {file}, {what} acts as if there were {factor:.2} times as much (standard error {:.0} %). With this factor their mean error is {after:.2} instead of {before:.2}: {advice}",
+            "in {mixtures} mixtures of {sizes} pigments ({file}), {what} acts as if there were {factor:.2} times as much (standard error {:.0} %). With this factor their mean error is {after:.2} instead of {before:.2}: {advice}",
             100.0 * deviation
         )
     }
+}
+
+/// Mixtures of a file: those of two pigments, which are mostly tints, and those of more. They stay one group if
+/// either has too few.
+fn split<'a, 'b>(
+    file: &'a str,
+    mixtures: Vec<&'b Mixed<'a>>,
+) -> Vec<(&'a str, Vec<&'b Mixed<'a>>)> {
+    let (two, more): (Vec<_>, Vec<_>) = mixtures.iter().partition(|mixed| mixed.parts.len() == 2);
+    if two.len() < LEAST_MIXTURES || more.len() < LEAST_MIXTURES {
+        return vec![(file, mixtures)];
+    }
+    vec![(file, two), (file, more)]
+}
+
+/// Least and greatest number of pigments.
+fn sizes(mixtures: &[&Mixed<'_>]) -> [usize; 2] {
+    let counts = mixtures.iter().map(|mixed| mixed.parts.len());
+    counts.fold([usize::MAX, 0], |[least, most], count| [least.min(count), most.max(count)])
 }
 
 /// The value at half of the weight. Each pair is a weight and a value.

@@ -8,7 +8,7 @@ use calibrate::{
     Recipe, ValidationRequest, validate,
 };
 use documents::hint::Explain;
-use rand::{Rng, SeedableRng};
+use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use spectra::optics::Specular;
 
@@ -96,7 +96,7 @@ fn a_white_that_was_weighed_wrongly_shows_as_one_factor_of_all_mixtures() {
     assert!((change.factor / 1.18 - 1.0).abs() < 0.04, "{change:?}");
     assert!(change.delta_e[1] < 0.5 * change.delta_e[0], "{change:?}");
     let report = found.report().to_string();
-    assert!(report.contains("12 mixtures of factory.csv"), "{report}");
+    assert!(report.contains("12 mixtures of 3 pigments (factory.csv)"), "{report}");
     assert!(report.contains("was the white weighed wrongly?"), "{report}");
 }
 
@@ -119,6 +119,19 @@ fn a_paint_of_another_batch_is_named_also_beside_a_wrong_white() {
         assert!((viridian.factor / 0.4 - 1.0).abs() < 0.1, "{viridian:?}");
         assert_eq!(viridian.mixtures, 6);
     }
+}
+
+#[test]
+fn mixtures_of_more_pigments_are_compared_with_tints_of_the_same_file() {
+    let tints = readings(&tints(), |_| 1.0, 1);
+    let factory = readings(&mixtures(), |name| if name == WHITE { 0.7 } else { 1.0 }, 2);
+    let rows = factory.split_once('\n').unwrap().1;
+    let both = Readings::from_csv("all.csv", format!("{tints}{rows}").as_bytes()).unwrap();
+    let found = validate(&both, &request(LeaveOut::Mixture)).unwrap();
+    let all: Vec<_> =
+        found.errors.strengths.iter().filter(|change| change.pigment.is_none()).collect();
+    let more = all.iter().find(|change| change.sizes == [3, 3]).unwrap();
+    assert!(more.mixtures == 12 && more.factor > 1.1, "{all:?}");
 }
 
 #[test]

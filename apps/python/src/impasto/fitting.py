@@ -111,6 +111,14 @@ class Validation(_Errors):
         return result
 
     @property
+    def strengths(self) -> list[dict[str, Any]]:
+        """Factors of the strength that the mixtures of a file have in common: pigment (None for all beside the
+        white), file, mixtures, sizes (least and greatest number of pigments), factor, deviation (its
+        relative standard error), delta_e (before, after)."""
+        result: list[dict[str, Any]] = self._errors["strengths"]
+        return result
+
+    @property
     def warnings(self) -> list[str]:
         """Mixtures that could not be left out."""
         return self._native.warnings
