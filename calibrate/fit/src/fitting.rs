@@ -554,7 +554,7 @@ pub enum FittingError {
     #[error("{}", nothing_to_leave_out(what, needed))]
     #[hint("measure more mixtures of each pigment (masstone, two tints, a shade)")]
     NothingToLeaveOut {
-        /// What should be left out: `mixture`, `sample` or `film`.
+        /// Noun for one of those that should be left out: `mixture`, `sample` or `film`.
         what: &'static str,
         /// Those without which a pigment would not be identified.
         needed: Vec<String>,

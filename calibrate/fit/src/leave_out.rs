@@ -1,11 +1,11 @@
-//! What a validation leaves out at a time.
+//! The choice of what a validation leaves out at a time.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::swatch::{Swatch, SwatchSet};
 
-/// What a validation leaves out at a time.
+/// Samples that a validation leaves out at a time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum LeaveOut {
@@ -43,7 +43,7 @@ impl LeaveOut {
         matches!(self, Self::Sample | Self::Mixture)
     }
 
-    /// What we leave out if nobody says it: mixtures, or samples if there are no mixtures.
+    /// The usual choice: mixtures, or samples if there are no mixtures.
     pub(crate) fn usual(set: &SwatchSet) -> Self {
         let has_mixtures = set.swatches.iter().any(|swatch| is_mixture(&swatch.amounts));
         if has_mixtures { Self::Mixture } else { Self::Sample }
@@ -85,7 +85,7 @@ impl LeaveOut {
         groups.into_iter().map(|(_, group)| group).collect()
     }
 
-    /// What one of the films that are left out is called.
+    /// Noun for one of the films that are left out.
     pub(crate) fn noun(self) -> &'static str {
         match self {
             Self::Mixture => "mixture",

@@ -92,7 +92,7 @@ impl Default for Provenance {
 pub struct ValidationRequest {
     /// Options of the fits
     pub fit: FitRequest,
-    /// What to leave out at a time [default: mixture, or sample if there are no mixtures]
+    /// Leave this out at a time [default: mixture, or sample if there are no mixtures]
     pub leave_out: Option<LeaveOut>,
     /// Deal the mixtures (or samples) at random into this many groups (the same every time), and leave out one
     /// group at a time [default: one mixture at a time; for absolute amounts, 10 groups]

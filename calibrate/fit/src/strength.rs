@@ -61,7 +61,7 @@ pub struct StrengthChange {
 pub(crate) struct Mixed<'a> {
     /// File of its first reading.
     pub(crate) file: &'a str,
-    /// Measured reflectance.
+    /// Measured reflectance of the mixture.
     pub(crate) measured: &'a [f64],
     /// White of the mixture, else the pigment with the largest share.
     pub(crate) base: PigmentId,
@@ -85,18 +85,17 @@ struct Factor {
 }
 
 impl Factor {
+    fn is_of(self, mixed: &Mixed<'_>, pigment: PigmentId) -> bool {
+        self.of.map_or(pigment != mixed.base, |one| one == pigment)
+    }
+
     fn at(self, mixed: &Mixed<'_>, pigment: PigmentId) -> f64 {
-        let is_changed = self.of.map_or(pigment != mixed.base, |one| one == pigment);
-        if is_changed { self.factor } else { 1.0 }
+        if self.is_of(mixed, pigment) { self.factor } else { 1.0 }
     }
 
     /// Whether it changes the shares of some pigments of a mixture, and not of all.
     fn changes(self, mixed: &Mixed<'_>) -> bool {
-        let changed = |(pigment, _, _): &&(PigmentId, f64, Curves)| match self.of {
-            None => *pigment != mixed.base,
-            Some(one) => *pigment == one,
-        };
-        let count = mixed.parts.iter().filter(changed).count();
+        let count = mixed.parts.iter().filter(|(id, _, _)| self.is_of(mixed, *id)).count();
         count > 0 && count < mixed.parts.len()
     }
 }
@@ -182,6 +181,11 @@ impl Strengths<'_> {
         changes
     }
 
+    fn mean_error(self, mixtures: &[&Mixed<'_>], factors: &[Factor]) -> f64 {
+        let sum: f64 = mixtures.iter().map(|mixed| self.error(mixed, factors)).sum();
+        sum / mixtures.len() as f64
+    }
+
     /// The factor of some pigments that the mixtures have in common beside the `known` ones. `None`
     /// if chance explains it, or it would change little.
     fn change(
@@ -190,21 +194,16 @@ impl Strengths<'_> {
         known: &[Factor],
         of: Option<PigmentId>,
     ) -> Option<Change> {
-        let with = |log: f64| {
-            let mut factors = known.to_vec();
-            factors.push(Factor { of, factor: log.exp() });
-            factors
-        };
         let changed: Vec<&Mixed<'_>> = mixtures
             .iter()
             .copied()
-            .filter(|mixed| with(0.0)[known.len()].changes(mixed))
+            .filter(|mixed| Factor { of, factor: 1.0 }.changes(mixed))
             .collect();
         if changed.len() < LEAST_MIXTURES {
             return None;
         }
         // A mixture in which the strength hardly shows tells little of it.
-        let [weaker, stronger] = [with(-STEP), with(STEP)];
+        let [weaker, stronger] = [-STEP, STEP].map(|log| with(known, of, log));
         let weighed: Vec<(f64, f64)> = changed
             .iter()
             .map(|mixed| {
@@ -224,12 +223,8 @@ impl Strengths<'_> {
         let deviation = MEDIAN_SD * weighted_median(distances.collect()) / effective.sqrt();
         let freedom = (effective - 1.0).round() as usize;
         let limit = STUDENT[freedom.checked_sub(2)?.min(STUDENT.len() - 1)];
-        let factors = with(center);
-        let errors = |factors: &[Factor]| -> f64 {
-            let sum: f64 = changed.iter().map(|mixed| self.error(mixed, factors)).sum();
-            sum / changed.len() as f64
-        };
-        let delta_e = [errors(known), errors(&factors)];
+        let factors = with(known, of, center);
+        let delta_e = [known, &factors].map(|factors| self.mean_error(&changed, factors));
         let is_clear = center.abs() > limit * deviation && center.abs() > LEAST_CHANGE.ln_1p();
         (is_clear && delta_e[1] < (1.0 - LEAST_GAIN) * delta_e[0]).then_some(Change {
             factor: factors[known.len()],
@@ -239,6 +234,11 @@ impl Strengths<'_> {
             delta_e,
         })
     }
+}
+
+/// The `known` factors and another one.
+fn with(known: &[Factor], of: Option<PigmentId>, log: f64) -> Vec<Factor> {
+    [known, &[Factor { of, factor: log.exp() }]].concat()
 }
 
 /// A [`StrengthChange`] without names.

@@ -84,7 +84,7 @@ pub struct ValidationPlan<'a> {
     /// Estimates from the fit of all samples, which are reused rather than estimated in each fit. On the
     /// Van Gogh oils this changes the mean error by 0.004 CIEDE2000.
     pub state: Option<RefinedState>,
-    /// What is left out at a time.
+    /// Samples that are left out at a time.
     pub leave_out: LeaveOut,
     /// Number of groups into which we deal what would be left out at a time, at random (the same every
     /// time), to leave out one group at a time instead.
@@ -441,7 +441,7 @@ pub struct FitValidation {
     pub errors: Validation,
     /// Fit of all samples.
     pub fit: Fit,
-    /// What was left out at a time.
+    /// Samples that were left out at a time.
     pub leave_out: LeaveOut,
     /// Number of groups that were left out in turn, or `None` for each mixture by itself.
     pub folds: Option<usize>,
@@ -561,7 +561,7 @@ impl PreparedFit {
         Ok(swatches.filter(|swatch| leave_out.selects(&swatch.amounts)).count())
     }
 
-    /// What a validation with these options leaves out at a time.
+    /// Samples that a validation with these options leaves out at a time.
     fn leave_out(&self, options: &ValidationRequest) -> Result<LeaveOut, FittingError> {
         if options.leave_out == Some(LeaveOut::Ground)
             && !matches!(self.model, FilmModel::Absolute(_))

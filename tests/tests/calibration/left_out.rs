@@ -108,8 +108,8 @@ fn a_paint_of_another_batch_is_named_also_beside_a_wrong_white() {
             "Viridian" => 0.4,
             _ => 1.0,
         });
-        let of_file = |change: &&calibrate::StrengthChange| change.file == "factory.csv";
-        let factory: Vec<_> = found.errors.strengths.iter().filter(of_file).collect();
+        let factory: Vec<_> =
+            found.errors.strengths.iter().filter(|change| change.file == "factory.csv").collect();
         let named: Vec<Option<&str>> =
             factory.iter().map(|change| change.pigment.as_deref()).collect();
         let wanted =
@@ -163,6 +163,12 @@ fn samples_pigments_and_files_are_left_out_as_asked() {
     assert_eq!(found.residuals(), Err(FittingError::ResidualsOfMixtures));
 }
 
+/// A line of a table.
+fn row(head: &str, values: &[f64]) -> String {
+    let values: Vec<String> = values.iter().map(|value| format!("{value:.5}")).collect();
+    format!("{head},{}\n", values.join(","))
+}
+
 /// Series of amounts of two washes over white and over grey paper.
 fn ladders() -> Readings {
     let oils = PigmentLibrary::van_gogh_oils();
@@ -171,13 +177,9 @@ fn ladders() -> Readings {
     let nm: Vec<String> = (0..oils.grid.count()).map(|at| oils.grid.nm(at).to_string()).collect();
     let mut text = format!("sample,backing,film,Viridian,Vermilion,{}\n", nm.join(","));
     let papers = [("white", 0.85), ("grey", 0.3)];
-    let row = |text: &mut String, head: String, values: &[f64]| {
-        let values: Vec<String> = values.iter().map(|value| format!("{value:.5}")).collect();
-        *text += &format!("{head},{}\n", values.join(","));
-    };
     for (name, level) in papers {
         let bare = vec![level; oils.grid.count()];
-        row(&mut text, format!("{name},{name},bare,,"), &bare);
+        text += &row(&format!("{name},{name},bare,,"), &bare);
         for (index, paint) in ["Viridian", "Vermilion"].iter().enumerate() {
             let curves = oils.curves(oils.find(paint).unwrap());
             for amount in [0.1, 0.3, 1.0] {
@@ -185,35 +187,36 @@ fn ladders() -> Readings {
                 let mut amounts = [String::new(), String::new()];
                 amounts[index] = amount.to_string();
                 let head = format!("{paint} {amount},{name},paint,{}", amounts.join(","));
-                row(&mut text, head, &values);
+                text += &row(&head, &values);
             }
         }
     }
     Readings::from_csv("ladders.csv", text.as_bytes()).unwrap()
 }
 
+fn absolute(leave_out: Option<LeaveOut>) -> ValidationRequest {
+    let fit = FitRequest {
+        amounts: AmountKind::Absolute,
+        unevenness: Some(0.0),
+        surface: Some(spectra::optics::Surface::NONE),
+        ..FitRequest::default()
+    };
+    ValidationRequest { fit, leave_out, ..ValidationRequest::default() }
+}
+
 #[test]
 fn series_of_one_pigment_have_held_out_errors() {
     let ladders = ladders();
-    let absolute = |leave_out| {
-        let fit = FitRequest {
-            amounts: AmountKind::Absolute,
-            unevenness: Some(0.0),
-            surface: Some(spectra::optics::Surface::NONE),
-            ..FitRequest::default()
-        };
-        validate(&ladders, &ValidationRequest { fit, leave_out, ..ValidationRequest::default() })
-    };
-    let usual = absolute(None).unwrap();
+    let usual = validate(&ladders, &absolute(None)).unwrap();
     assert_eq!((usual.leave_out, usual.errors.per_sample.len()), (LeaveOut::Sample, 12));
     assert!(usual.errors.delta_e.mean < 1.0, "{:?}", usual.errors.delta_e);
-    let ground = absolute(Some(LeaveOut::Ground)).unwrap();
+    let ground = validate(&ladders, &absolute(Some(LeaveOut::Ground))).unwrap();
     assert_eq!(ground.errors.per_sample.len(), 12);
     assert!(ground.errors.delta_e.mean > usual.errors.delta_e.mean, "a ground tells more");
     let title = ground.report().to_string();
     assert!(title.contains("12 films, left out ground by ground"), "{title}");
-    let error = absolute(Some(LeaveOut::Pigment)).unwrap_err();
+    let error = validate(&ladders, &absolute(Some(LeaveOut::Pigment))).unwrap_err();
     assert!(error.to_string().contains("no sample can be left out"), "{error}");
-    let error = absolute(Some(LeaveOut::Mixture)).unwrap_err();
+    let error = validate(&ladders, &absolute(Some(LeaveOut::Mixture))).unwrap_err();
     assert!(error.to_string().contains("there is no mixture to leave out"), "{error}");
 }

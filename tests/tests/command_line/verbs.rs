@@ -86,7 +86,7 @@ fn every_option_of_the_fit_changes_the_fit() {
 fn validate_prints_its_keys() {
     let found = json(&["validate", &oils(), "--folds", "4", "--method", "weighted", "--json"]);
     assert_eq!(keys(&found)[..8], FIT_KEYS);
-    assert_eq!(keys(&found)[8..], ["strength_free", "by_pigment"]);
+    assert_eq!(keys(&found)[8..], ["strength_free", "strengths", "by_pigment"]);
     let other = json(&["validate", &oils(), "--folds", "9", "--method", "weighted", "--json"]);
     assert_ne!(other["delta_e"], found["delta_e"], "the folds differ");
     let with = json(&[

@@ -250,12 +250,12 @@ fn mixture_at(
     lightness: f64,
 ) -> Result<(Lab, Recipe), TonesError> {
     let found = faded_mixture(usual, base, lightness)?;
-    let off = |found: &(Lab, Recipe)| (found.0.lightness - lightness).abs();
-    if off(&found) <= LIGHTNESS_TOLERANCE {
+    if (found.0.lightness - lightness).abs() <= LIGHTNESS_TOLERANCE {
         return Ok(found);
     }
     let traced = faded_mixture(traces, base, lightness)?;
-    Ok(if off(&traced) < off(&found) { traced } else { found })
+    let [off, traced_off] = [&found, &traced].map(|(lab, _)| (lab.lightness - lightness).abs());
+    Ok(if traced_off < off { traced } else { found })
 }
 
 /// The mixture of a hue near this L*, and the colour that it has. We search for the chroma of an
