@@ -405,7 +405,7 @@ fn a_batch_that_lacks_blue_is_told_how_much() {
     let [made, grams, strength] = ["made", "grams", "strength"].map(|k| blue[k].as_f64().unwrap());
     assert!(made == 60.0 && grams < 58.0 && strength < 1.0, "{blue}");
     let run = impasto(&[&all[..], &["--strength", "cobalt=1"]].concat());
-    assert!(run.out.contains("Cobalt Blue (made 60.0 g, strength 1.0"), "{}", run.out);
+    assert!(run.out.contains("Cobalt Blue (made 60.0 g, strength 0.99)"), "{}", run.out);
     let second = ["--before", &batch, "--added", "cobalt=2", "--at-most", "1", "--json"];
     let second = impasto(&[&all[..], &second].concat()).json();
     assert_eq!((&second["batch_grams"], &second["pot"][1]["made"]), (&502.0.into(), &62.0.into()));

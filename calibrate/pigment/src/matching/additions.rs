@@ -26,6 +26,8 @@ const EASY: f64 = 0.5;
 const LEAST_GAIN: f64 = 0.1;
 /// But if this fraction more is all that the limits allow, you add all. We chose it by eye.
 const REST: f64 = 0.15;
+/// The same fraction for paint of which little is in stock. We chose it by eye.
+const REST_OF_STOCK: f64 = 1.0;
 
 /// Limits of an addition to a pot. We give amounts as fractions of the paint in the pot.
 pub(super) struct Additions<'a> {
@@ -86,6 +88,11 @@ impl Ladder {
 impl Additions<'_> {
     fn pot(&self) -> PigmentId {
         PigmentId(self.library.pigments.len() - 1)
+    }
+
+    /// Amount of all pigments of a set that is in stock.
+    fn stock_of(&self, set: &[PigmentId]) -> f64 {
+        set.iter().filter_map(|pigment| self.stock.get(pigment.index())).sum()
     }
 
     /// Limits of mixtures of the pot with additions of `allowed`, `share` of which is the pot.
@@ -181,7 +188,9 @@ impl Additions<'_> {
                 }
             }
             let last = steps[steps.len() - 1];
-            let rest = last.total() <= enough.total() * (1.0 + REST);
+            let is_all = last.total() >= self.stock_of(&ladder.set) * (1.0 - 1e-6);
+            let rest = if is_all { REST_OF_STOCK } else { REST };
+            let rest = last.total() <= enough.total() * (1.0 + rest);
             Some(if rest && !can_reach && is_enough(last) { last.clone() } else { enough })
         });
         let mut additions: Vec<Addition> =
@@ -225,8 +234,7 @@ impl Additions<'_> {
         scratch: &mut Scratch,
     ) -> Option<Ladder> {
         let set = &set.pigments;
-        let stock = set.iter().filter_map(|pigment| self.stock.get(pigment.index()));
-        let most = self.most.min(stock.sum());
+        let most = self.most.min(self.stock_of(set));
         if most < self.least {
             return None;
         }
