@@ -26,7 +26,7 @@ const EASY: f64 = 0.5;
 const LEAST_GAIN: f64 = 0.1;
 /// But if this fraction more is all that the limits allow, you add all. We chose it by eye.
 const REST: f64 = 0.15;
-/// The same fraction for paint of which little is in stock. We chose it by eye.
+/// This fraction applies instead to paint of which little is in stock. We chose it by eye.
 const REST_OF_STOCK: f64 = 1.0;
 
 /// Limits of an addition to a pot. We give amounts as fractions of the paint in the pot.
