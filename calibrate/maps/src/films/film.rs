@@ -386,7 +386,7 @@ pub(crate) fn usual_pigments(library: &PigmentLibrary) -> Vec<PigmentId> {
 }
 
 impl Paints {
-    /// The pigments of `library` that `palette` names, or its [usual ones](usual_pigments).
+    /// The pigments of `library` that `palette` names, or its usual ones.
     ///
     /// # Errors
     /// [`MapError::Name`] for a name that matches no pigment or several, [`MapError::Pigments`]
