@@ -77,10 +77,9 @@ pub struct IdentifyRequest {
 
 impl Default for IdentifyRequest {
     fn default() -> Self {
-        let MapRequest { penalty, .. } = MapRequest::default();
+        let MapRequest { at_most, penalty, .. } = MapRequest::default();
         Self {
-            // A single spectrum seldom tells more: with 4, recall on measured swatches is lower.
-            at_most: 3,
+            at_most,
             palette: Vec::new(),
             groups: Vec::new(),
             apart: false,
