@@ -536,7 +536,7 @@ pub enum FittingError {
     #[hint("try [folds=10]")]
     #[fault(Setting)]
     Folds(usize),
-    /// Other residuals than those of mixtures are no errors of mixtures.
+    /// A map needs the errors of mixtures that were left out one by one. You left out something else.
     #[error("residuals for maps are those of mixtures that were left out by themselves")]
     #[hint("leave out [residuals] or [leave_out]")]
     #[fault(Setting)]

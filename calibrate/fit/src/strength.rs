@@ -146,9 +146,9 @@ impl Strengths<'_> {
         best
     }
 
-    /// Factors that the mixtures have in common, file by file, and in each file those of two
-    /// pigments and those of more. We look first for a factor of all pigments beside the white,
-    /// then for single pigments, each time the one with the largest gain. `pigments` are the names, and `white` is the reference white.
+    /// Factors that the mixtures of a group have in common. Each file is a group, or two: its
+    /// mixtures of two pigments, and its larger ones. In a group we look first for a factor of all
+    /// pigments beside the white, then for single pigments, each time the one with the largest gain. `pigments` are the names, and `white` is the reference white.
     pub(crate) fn changes(
         self,
         mixtures: &[&Mixed<'_>],
@@ -289,8 +289,8 @@ impl fmt::Display for StrengthChange {
     }
 }
 
-/// Mixtures of a file: those of two pigments, which are mostly tints, and those of more. They stay one group if
-/// either has too few.
+/// Splits the mixtures of a file into those of two pigments, which are mostly tints, and larger ones.
+/// If there are too few of either kind, all stay in one group.
 fn split<'a, 'b>(
     file: &'a str,
     mixtures: Vec<&'b Mixed<'a>>,

@@ -375,7 +375,7 @@ impl Blur {
         }
         let reach = (REACH * pixels).ceil() as usize;
         let mut weights: Vec<f64> =
-            (0..=reach).map(|at| (-0.5 * (at as f64 / pixels).powi(2)).exp()).collect();
+            (0..=reach).map(|at| libm::exp(-0.5 * (at as f64 / pixels).powi(2))).collect();
         let sum = 2.0 * weights.iter().sum::<f64>() - weights[0];
         weights.iter_mut().for_each(|weight| *weight /= sum);
         Self { weights }

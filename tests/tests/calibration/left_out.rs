@@ -1,4 +1,4 @@
-//! What a validation leaves out at a time, and the strengths that mixtures have in common.
+//! Validations that leave out samples, grounds, pigments or files, and the strengths that mixtures share.
 
 use std::fmt::Write;
 
@@ -149,7 +149,7 @@ fn samples_pigments_and_files_are_left_out_as_asked() {
         let title = found.report().to_string().lines().next().unwrap().to_owned();
         (found.errors.per_sample.len(), found.errors.needed.len(), title)
     });
-    // Nothing shows S = 1 of the white but its masstone and all tints together.
+    // Without its masstone the white is still known from all tints together.
     assert_eq!((counts[0].0, counts[0].1), (12, 0), "{counts:?}");
     assert_eq!((counts[1].0, counts[1].1), (17, 0), "{counts:?}");
     assert_eq!((counts[2].0, counts[2].1), (5, 0), "{counts:?}");

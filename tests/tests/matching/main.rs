@@ -4,6 +4,7 @@
 mod corrections;
 mod exhaustive;
 mod films;
+mod masstones;
 mod spectrum;
 
 use calibrate::evaluate::{Viewing, lab};

@@ -254,7 +254,7 @@ fn correlation(nm: &[f64]) -> DMatrix<f64> {
         SMOOTH
             .into_iter()
             .map(|(length, part): (f64, f64)| {
-                part * (-distance * distance / (2.0 * length * length)).exp()
+                part * libm::exp(-distance * distance / (2.0 * length * length))
             })
             .sum()
     })
@@ -271,7 +271,8 @@ fn root_covariance(bands: &Bands, residuals: &Residuals) -> DMatrix<f64> {
         let reflectance = bands.fold_library(&mixture.measured);
         let residual = bands.fold_library(&residual);
         let roots = reflectance.iter().zip(&residual);
-        let roots: Vec<f64> = roots.map(|(r, e)| e / (4.0 * r.max(1e-4).powf(0.75))).collect();
+        let roots: Vec<f64> =
+            roots.map(|(r, e)| e / (4.0 * libm::pow(r.max(1e-4), 0.75))).collect();
         // Some have a mean square a hundred times larger than others, which would not count.
         let size = (roots.iter().map(|root| root * root).sum::<f64>() / count as f64).sqrt();
         sizes.push(size);

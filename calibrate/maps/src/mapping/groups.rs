@@ -129,7 +129,7 @@ fn normal_above(z: f64) -> f64 {
         * (0.319_381_530
             + t * (-0.356_563_782
                 + t * (1.781_477_937 + t * (-1.821_255_978 + t * 1.330_274_429))));
-    (-0.5 * z * z).exp() / (2.0 * std::f64::consts::PI).sqrt() * series
+    libm::exp(-0.5 * z * z) / (2.0 * std::f64::consts::PI).sqrt() * series
 }
 
 /// A pigment of a map, or a group of pigments that the map shows as one.

@@ -180,7 +180,7 @@ pub(crate) fn palette(
         let others: Vec<u64> = own.iter().map(|own| of_entry & !own).collect();
         // Each may replace the others, and is more likely the less the score rises by that.
         let alone = survey.needs(palette, &others);
-        let weights: Vec<f32> = alone.iter().map(|loss| (-0.5 * loss).exp()).collect();
+        let weights: Vec<f32> = alone.iter().map(|loss| libm::expf(-0.5 * loss)).collect();
         let sum: f32 = weights.iter().sum();
         let needs = survey.needs(palette, &own);
         for ((&pigment, weight), need) in entry.iter().zip(weights).zip(needs) {
@@ -191,7 +191,7 @@ pub(crate) fn palette(
 }
 
 fn likely(need: f32) -> f32 {
-    1.0 / (1.0 + (0.5 * (NEEDED - need)).exp())
+    1.0 / (1.0 + libm::expf(0.5 * (NEEDED - need)))
 }
 
 /// Sets of all surveyed pixels as bits of their pigments, with their scores.

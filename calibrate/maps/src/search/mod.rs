@@ -292,10 +292,10 @@ fn recipes(paints: &Paints) -> Vec<Vec<(usize, f64)>> {
     let mut recipes: Vec<Vec<(usize, f64)>> = (0..count).map(|p| vec![(p, 1.0)]).collect();
     for a in 0..count {
         for b in a + 1..count {
-            let shift = 0.5 * (paints.strength(b) / paints.strength(a)).ln();
+            let shift = 0.5 * libm::log(paints.strength(b) / paints.strength(a));
             for step in 0..RATIOS {
                 let place = 2.0 * f64::from(step) / f64::from(RATIOS - 1) - 1.0;
-                let ratio = (GREATEST * place + shift.clamp(-SHIFT, SHIFT)).exp();
+                let ratio = libm::exp(GREATEST * place + shift.clamp(-SHIFT, SHIFT));
                 recipes.push(vec![(a, ratio / (1.0 + ratio)), (b, 1.0 / (1.0 + ratio))]);
             }
         }

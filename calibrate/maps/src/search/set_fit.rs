@@ -193,7 +193,7 @@ impl Difference {
                 }
             }
         }
-        determinant.ln()
+        libm::log(determinant)
     }
 }
 
@@ -336,7 +336,7 @@ impl Scores {
 
     /// Weight of a set with a score `above` the best one.
     pub(crate) fn weight(above: f32) -> f64 {
-        (-0.5 / TEMPERATURE * f64::from(above)).exp()
+        libm::exp(-0.5 / TEMPERATURE * f64::from(above))
     }
 
     /// The scores for a scan with the palette `palette`, which holds the probability of each
@@ -351,7 +351,7 @@ impl Scores {
                 .iter()
                 .map(|&inside: &f32| {
                     let likely = LEAST_LIKELY + (1.0 - LEAST_LIKELY) * inside;
-                    self.penalty as f32 * (1.0 - inside) - 2.0 * likely.ln()
+                    self.penalty as f32 * (1.0 - inside) - 2.0 * libm::logf(likely)
                 })
                 .collect(),
             ..self.clone()
@@ -364,7 +364,7 @@ impl Scores {
         let mut sets = 1.0;
         std::array::from_fn(|size| {
             sets *= (pigments - size as f64).max(1.0) / (size + 1) as f64;
-            (2.0 * sets.ln() + penalty * (size + 1) as f64) as f32
+            (2.0 * libm::log(sets) + penalty * (size + 1) as f64) as f32
         })
     }
 
@@ -386,7 +386,7 @@ impl Scores {
             return chi2;
         }
         let scale = self.tail + self.bands as f64;
-        (scale * (f64::from(chi2.max(0.0)) / self.tail).ln_1p()) as f32
+        (scale * libm::log1p(f64::from(chi2.max(0.0)) / self.tail)) as f32
     }
 
     /// Greatest slope of the score over chi-square.

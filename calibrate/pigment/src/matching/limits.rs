@@ -70,8 +70,9 @@ pub struct RecipeLimits {
 }
 
 impl RecipeLimits {
-    /// Limits with the [usual pigments](PigmentLibrary::usual_pigments) of `library`, up to four in a recipe, shares from 1/50, amounts
-    /// as they were measured, and five recipes.
+    /// Limits with the [usual pigments](PigmentLibrary::usual_pigments) of `library`, up to four in a
+    /// recipe, shares from 1/50, amounts as they were
+    /// measured, and five recipes.
     #[must_use]
     pub fn new(
         library: &PigmentLibrary,

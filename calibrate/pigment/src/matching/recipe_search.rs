@@ -157,8 +157,10 @@ impl MatchRequest {
 
 impl RecipeSearch<'_> {
     /// Searches recipes for one target. `task` counts the sets of pigments that we tried in the first of
-    /// the searches that a target may take. If the pigments do not reach the target, and those of unknown
-    /// S come nearer, the nearest recipe with them is the last one.
+    /// the searches that a target may take.
+    ///
+    /// If no recipe reaches the target, we also try the pigments with an unknown S. If a recipe with them is
+    /// nearer by 0.5, it is the last one of the list, and a warning says that it is a guess.
     ///
     /// # Errors
     /// [`MatchError`] if no recipe fits the options, a spectrum has no visible wavelength, or `task` was
@@ -199,8 +201,8 @@ impl RecipeSearch<'_> {
         Ok(matches)
     }
 
-    /// Adds the nearest recipe with pigments of unknown S, if only they bring a recipe visibly nearer to a
-    /// target that is not reached.
+    /// Adds the nearest recipe with pigments of unknown S, if no other recipe reaches the target and this one
+    /// is visibly nearer.
     fn add_guess(&self, matches: &mut RecipeMatches, task: &Task) -> Result<(), MatchError> {
         if matches.is_reached() || self.unknown.is_empty() {
             return Ok(());
@@ -210,9 +212,11 @@ impl RecipeSearch<'_> {
         let found = recipes(self.library, &matches.target, &limits, task)?;
         let known = matches.below_least.iter().map(|recipe| recipe.distance);
         let nearest = known.fold(matches.nearest(), f64::min);
-        let Some(guess) = found.into_iter().find(|found| found.distance < nearest - VISIBLE) else {
-            return Ok(());
-        };
+        let guess = found.into_iter().find(|found| {
+            found.distance < nearest - VISIBLE
+                && found.shares.iter().any(|(id, _)| self.unknown.contains(id))
+        });
+        let Some(guess) = guess else { return Ok(()) };
         let names: Vec<&str> = guess
             .shares
             .iter()

@@ -303,7 +303,7 @@ impl MatchRequest {
         }
         if !left_out.is_empty() && self.only.is_empty() {
             let text = format!(
-                "S is not known of {}; we use them only for colours that the other pigments do not reach",
+                "we do not know S of {}, and use them only for colours that the other pigments do not reach",
                 left_out.join(", ")
             );
             remarks.push(Remark::note(text));
