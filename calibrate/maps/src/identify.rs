@@ -77,9 +77,10 @@ pub struct IdentifyRequest {
 
 impl Default for IdentifyRequest {
     fn default() -> Self {
-        let MapRequest { at_most, penalty, .. } = MapRequest::default();
+        let MapRequest { penalty, .. } = MapRequest::default();
         Self {
-            at_most,
+            // A single spectrum seldom tells more: with 4, recall on measured swatches is lower.
+            at_most: 3,
             palette: Vec::new(),
             groups: Vec::new(),
             apart: false,

@@ -5,8 +5,9 @@ use std::ops::Range;
 
 use documents::hint::Explain;
 use pigment::PigmentLibrary;
-use spectra::Viewing;
+use spectra::{Grid, InterpolateError, Viewing};
 
+use crate::cube::CubeError;
 use crate::pixel_maps::{BlockMaps, Mask, PixelCounts};
 #[cfg(feature = "files")]
 use crate::store::{StoreError, StoredMaps};
@@ -157,7 +158,7 @@ pub struct PigmentPictures {
     pub place: usize,
     /// Name of the file of [`Self::presence`].
     pub presence_file: String,
-    /// PNG of the probability that the pigment is present: white for 0, the ink of the pigment for 1.
+    /// PNG of the probability that the pigment is present, by [`MapPictures::PRESENCE`].
     pub presence: Vec<u8>,
     /// Name of the file of [`Self::share`].
     pub share_file: String,
@@ -170,9 +171,9 @@ pub struct PigmentPictures {
 pub struct MapPictures {
     /// Pictures of pigments and groups. The ones that are present most often come first.
     pub pigments: Vec<PigmentPictures>,
-    /// PNG of chi-square: white for 0, red for 4 and more.
+    /// PNG of chi-square, by [`MapPictures::CHI2`].
     pub chi2: Vec<u8>,
-    /// PNG of the residual: white for 0, blue for 0.05 and more of reflectance.
+    /// PNG of the residual, by [`MapPictures::RESIDUAL`].
     pub residual: Vec<u8>,
 }
 
@@ -181,6 +182,14 @@ impl MapPictures {
     pub const CHI2_FILE: &str = "chi2.png";
     /// Name of the file of the residual.
     pub const RESIDUAL_FILE: &str = "residual.png";
+    /// Name of the file of the scan itself.
+    pub const SCAN_FILE: &str = "scan.png";
+    /// Colours of presence, the same for all pigments: white for 0, dark violet for 1.
+    pub const PRESENCE: Ramp = Ramp { from: (0.0, [255; 3]), to: (1.0, [64, 16, 96]) };
+    /// Colours of chi-square: white for 0, red for 4 and more.
+    pub const CHI2: Ramp = Ramp { from: (0.0, [255; 3]), to: (4.0, [150, 20, 20]) };
+    /// Colours of the residual: white for 0, blue for 0.05 and more of reflectance.
+    pub const RESIDUAL: Ramp = Ramp { from: (0.0, [255; 3]), to: (0.05, [20, 20, 150]) };
 
     /// Draws the maps `overview` of `scan`. Pass the library of the survey as `library`.
     pub fn of(
@@ -191,8 +200,6 @@ impl MapPictures {
         let size = (overview.width, overview.height);
         let mut order: Vec<usize> = (0..overview.pigments.len()).collect();
         order.sort_by(|&a, &b| overview.present[b].total_cmp(&overview.present[a]));
-        let chi2 = Ramp { from: (0.0, [255; 3]), to: (4.0, [150, 20, 20]) };
-        let rms = Ramp { from: (0.0, [255; 3]), to: (0.05, [20, 20, 150]) };
         Ok(Self {
             pigments: order
                 .into_iter()
@@ -203,16 +210,81 @@ impl MapPictures {
                     Ok(PigmentPictures {
                         place,
                         presence_file: format!("presence-{file}.png"),
-                        presence: picture_png(&overview.presence[place], size, &ink)?,
+                        presence: picture_png(&overview.presence[place], size, &Self::PRESENCE)?,
                         share_file: format!("share-{file}.png"),
                         share: picture_png(&overview.share[place], size, &ink)?,
                     })
                 })
                 .collect::<Result<_, PictureError>>()?,
-            chi2: picture_png(&overview.chi2, size, &chi2)?,
-            residual: picture_png(&overview.rms, size, &rms)?,
+            chi2: picture_png(&overview.chi2, size, &Self::CHI2)?,
+            residual: picture_png(&overview.rms, size, &Self::RESIDUAL)?,
         })
     }
+}
+
+/// PNG of the scan itself, with the squares of `overview`: the pixel in the middle of each, seen in
+/// daylight (D65). Bands outside 360 to 830 nm do not count.
+pub fn scan_png(scan: &SurveyedScan, overview: &Overview) -> Result<Vec<u8>, PictureError> {
+    let cube = scan.cube();
+    let nm = cube.wavelengths_nm();
+    let seen: Vec<usize> = (0..nm.len()).filter(|&band| SEEN.contains(&nm[band])).collect();
+    let ends = seen.first().zip(seen.last()).map(|(&first, &last)| (nm[first], nm[last]));
+    let (start, end) = ends.unwrap_or((0.0, 0.0));
+    let steps = ((end - start) / STEP_NM).floor() as usize;
+    let grid = Grid::from_nm(start, STEP_NM, steps + 1).ok().filter(|_| steps > 0);
+    let Some(grid) = grid else { return Err(PictureError::Unseen) };
+    let weights = Viewing::default().weights(grid)?;
+    // Each wavelength of the grid lies between two bands.
+    let places: Vec<(usize, f64)> = grid
+        .wavelengths_nm()
+        .map(|at: f64| {
+            let above = nm.partition_point(|nm| *nm < at).clamp(1, nm.len() - 1);
+            (above, ((at - nm[above - 1]) / (nm[above] - nm[above - 1])).clamp(0.0, 1.0))
+        })
+        .collect();
+    let about = scan.about();
+    let mut colors = Vec::with_capacity(overview.width * overview.height);
+    for row in 0..overview.height {
+        let line = middle(row, overview.step, &about.rows);
+        let block = cube.read(line..line + 1, about.columns.clone())?;
+        for column in 0..overview.width {
+            let at = middle(column, overview.step, &about.columns) - about.columns.start;
+            let color = (block.mask[at] == Mask::Mapped).then(|| {
+                let pixel = block.pixel(at);
+                let reflectance: Vec<f64> = places
+                    .iter()
+                    .map(|&(above, part)| {
+                        let [a, b] = [pixel[above - 1], pixel[above]].map(f64::from);
+                        (a * (1.0 - part) + b * part).clamp(0.0, 1.0)
+                    })
+                    .collect();
+                let [red, green, blue] = bytes(weights.color(&reflectance).srgb.0);
+                [red, green, blue, 255]
+            });
+            colors.push(color.unwrap_or(hatched(column, row)));
+        }
+    }
+    encoded(&colors, (overview.width, overview.height))
+}
+
+/// The pixel in the middle of a square, in rows or columns.
+fn middle(square: usize, step: usize, range: &Range<usize>) -> usize {
+    (range.start + square * step + step / 2).min(range.end - 1)
+}
+
+/// The eye sees light of these wavelengths in nm.
+const SEEN: std::ops::RangeInclusive<f64> = 360.0..=830.0;
+/// Distance of the wavelengths from which we compute the colour of the scan, in nm.
+const STEP_NM: f64 = 10.0;
+
+fn bytes(srgb: [f64; 3]) -> [u8; 3] {
+    srgb.map(|value| (255.0 * value.clamp(0.0, 1.0)).round() as u8)
+}
+
+/// Colour of a square that is not mapped: grey stripes, which no ramp has.
+fn hatched(column: usize, row: usize) -> [u8; 4] {
+    let grey = if ((column + row) / 3).is_multiple_of(2) { 190 } else { 225 };
+    [grey, grey, grey, 255]
 }
 
 /// The colour of a pigment's masstone, darkened so that you see it on white.
@@ -220,7 +292,7 @@ fn ink(library: &PigmentLibrary, scan: &SurveyedScan, column: &str) -> [u8; 3] {
     let columns = scan.mapper().columns();
     let first = columns.iter().find(|c| c.name == column).and_then(|c| c.pigments.first());
     let color = first.and_then(|name| library.color([(name, 1.0)], &Viewing::default()).ok());
-    let rgb = color.map_or([0; 3], |color| color.srgb.0.map(|v| (255.0 * v.clamp(0.0, 1.0)) as u8));
+    let rgb = color.map_or([0; 3], |color| bytes(color.srgb.0));
     let brightest = rgb.iter().copied().max().unwrap_or(0).max(1);
     match brightest > DARKEST && rgb.iter().copied().min().unwrap_or(0) > DARKEST {
         true => rgb.map(|v| (f64::from(v) * f64::from(DARKEST) / f64::from(brightest)) as u8),
@@ -249,12 +321,22 @@ pub enum PictureError {
         /// Height in pixels.
         height: usize,
     },
+    /// No two bands of the scan lie in visible light.
+    #[error("the bands of the scan show no visible light")]
+    Unseen,
+    /// The scan cannot be read.
+    #[error(transparent)]
+    Cube(#[from] CubeError),
+    /// The colour of a spectrum cannot be computed.
+    #[error(transparent)]
+    Interpolate(#[from] InterpolateError),
     /// The encoder refuses it.
     #[error("the picture cannot be encoded")]
     Encoder(#[from] png::EncodingError),
 }
 
-/// Encodes `width` x `height` values as a PNG file, with the colours of `ramp`. NaN is transparent.
+/// Encodes `width` x `height` values as a PNG file, with the colours of `ramp`. NaN, which stands for
+/// squares that are not mapped, becomes grey stripes.
 ///
 /// # Errors
 /// [`PictureError`] if the number of values differs from the number of pixels.
@@ -263,10 +345,17 @@ pub fn picture_png(
     (width, height): (usize, usize),
     ramp: &Ramp,
 ) -> Result<Vec<u8>, PictureError> {
+    let colors = values.iter().enumerate().map(|(index, value)| {
+        ramp.color(*value).unwrap_or_else(|| hatched(index % width.max(1), index / width.max(1)))
+    });
+    encoded(&colors.collect::<Vec<[u8; 4]>>(), (width, height))
+}
+
+fn encoded(colors: &[[u8; 4]], (width, height): (usize, usize)) -> Result<Vec<u8>, PictureError> {
     let sizes = u32::try_from(width).ok().zip(u32::try_from(height).ok());
-    let fits = width.checked_mul(height) == Some(values.len()) && !values.is_empty();
+    let fits = width.checked_mul(height) == Some(colors.len()) && !colors.is_empty();
     let (Some((columns, rows)), true) = (sizes, fits) else {
-        return Err(PictureError::Size { values: values.len(), width, height });
+        return Err(PictureError::Size { values: colors.len(), width, height });
     };
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, columns, rows);
@@ -274,8 +363,7 @@ pub fn picture_png(
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
     let mut writer = encoder.write_header()?;
-    let colors: Vec<u8> = values.iter().flat_map(|value| ramp.color(*value)).collect();
-    writer.write_image_data(&colors)?;
+    writer.write_image_data(colors.as_flattened())?;
     writer.finish()?;
     Ok(bytes)
 }
@@ -297,11 +385,11 @@ impl Ramp {
         Self { from: (0.0, [255; 3]), to: (1.0, ink) }
     }
 
-    /// Encoded sRGB and opacity of a value. NaN is transparent.
+    /// Encoded sRGB and opacity of a value, or `None` for NaN.
     #[must_use]
-    pub fn color(&self, value: f32) -> [u8; 4] {
+    pub fn color(&self, value: f32) -> Option<[u8; 4]> {
         if value.is_nan() {
-            return [0; 4];
+            return None;
         }
         let way = ((value - self.from.0) / (self.to.0 - self.from.0)).clamp(0.0, 1.0);
         let mut color = [255; 4];
@@ -309,7 +397,7 @@ impl Ramp {
         for (channel, (from, to)) in color.iter_mut().zip(ends) {
             *channel = (from + way * (to - from)).round() as u8;
         }
-        color
+        Some(color)
     }
 }
 
@@ -351,12 +439,25 @@ mod tests {
     #[test]
     fn values_between_the_ends_are_blended() {
         let ramp = Ramp::of_ink([55, 0, 155]);
-        assert_eq!(ramp.color(0.0), [255; 4]);
-        assert_eq!(ramp.color(0.5), [155, 128, 205, 255]);
-        assert_eq!(ramp.color(7.0), [55, 0, 155, 255]);
-        assert_eq!(ramp.color(-7.0), [255; 4]);
-        assert_eq!(ramp.color(f32::NAN), [0; 4], "no value");
+        assert_eq!(ramp.color(0.0), Some([255; 4]));
+        assert_eq!(ramp.color(0.5), Some([155, 128, 205, 255]));
+        assert_eq!(ramp.color(7.0), Some([55, 0, 155, 255]));
+        assert_eq!(ramp.color(-7.0), Some([255; 4]));
+        assert_eq!(ramp.color(f32::NAN), None, "no value");
         let falling = Ramp { from: (4.0, [0; 3]), to: (2.0, [200; 3]) };
-        assert_eq!(falling.color(3.0), [100, 100, 100, 255]);
+        assert_eq!(falling.color(3.0), Some([100, 100, 100, 255]));
+    }
+
+    #[test]
+    fn squares_that_are_not_mapped_are_striped_and_opaque() {
+        let ramp = Ramp::of_ink([0; 3]);
+        let bytes = picture_png(&[f32::NAN; 36], (6, 6), &ramp).unwrap();
+        let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+        let mut colors = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut colors).unwrap();
+        let mut greys: Vec<[u8; 4]> = colors.as_chunks().0.to_vec();
+        greys.sort_unstable();
+        greys.dedup();
+        assert_eq!(greys, [[190, 190, 190, 255], [225, 225, 225, 255]]);
     }
 }

@@ -40,7 +40,7 @@ use crate::{
 #[serde(default, deny_unknown_fields)]
 #[schemars(description = "Options of a map of a scan")]
 pub struct MapRequest {
-    /// Most pigments of one pixel, 1 to 4 [default: 3]
+    /// Most pigments of one pixel, 1 to 4 [default: 4]
     pub at_most: usize,
     /// A pigment that may take part; may be repeated [default: all whose S is known]
     pub palette: Vec<String>,
@@ -64,7 +64,7 @@ pub struct MapRequest {
     /// such as 0..20,0..100, or a file with its reflectance
     #[schemars(schema_with = "ground_schema")]
     pub ground: Option<GroundSource>,
-    /// Amount by which a pigment that the survey does not find in the palette must lower chi-square to be reported
+    /// Amount by which a further pigment must lower chi-square for the survey to find it
     /// [default: 2]
     pub penalty: f64,
     /// Rows and columns to map, from 0 and without the last, such as 0..512,100..300 [default: all]

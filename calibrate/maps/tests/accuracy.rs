@@ -36,11 +36,13 @@ fn left_out_swatches_are_unmixed_better_than_by_linear_methods() {
     let samples = prepared_oils(&readings()).unwrap().left_out(&Task::default()).unwrap();
     assert_eq!(samples.len(), 65, "binary mixtures");
     let groups = oil_groups();
-    let trials = swatch_trials(&samples, &MapSettings::default(), &groups).unwrap();
+    // As `identify` does.
+    let settings = MapSettings { at_most: 3, ..MapSettings::default() };
+    let trials = swatch_trials(&samples, &settings, &groups).unwrap();
     let pigments = Scores::of(&trials.pigments);
     let joined = Scores::of(&trials.groups);
     println!("pigments {pigments}, groups {joined}");
-    assert!(joined.precision > 0.88 && joined.recall > 0.86, "groups {joined}");
+    assert!(joined.precision > 0.92 && joined.recall > 0.84, "groups {joined}");
     assert!(joined.share_error < 0.15, "groups {joined}");
     assert!(pigments.precision > 0.79 && pigments.recall > 0.74, "pigments {pigments}");
     let named = NamedGroups::of(&samples, &groups);
@@ -61,7 +63,7 @@ fn simulated_paintings_are_unmixed_and_told_honestly() {
     let searched = Scores::of(&trials.searched);
     let mapped = Scores::of(&trials.mapped);
     println!("light palette: searched {searched}, mapped {mapped}, worse {:.3}", trials.worse());
-    assert!(searched.precision > 0.95 && searched.recall > 0.90, "searched {searched}");
+    assert!(searched.precision > 0.95 && searched.recall > 0.88, "searched {searched}");
     assert!(searched.share_error < 0.08, "searched {searched}");
     assert!(mapped.f1() > 0.93 && mapped.share_error < 0.08, "mapped {mapped}");
     assert!(trials.worse() < 0.03, "{}", trials.worse());
@@ -70,10 +72,12 @@ fn simulated_paintings_are_unmixed_and_told_honestly() {
     let searched = Scores::of(&trials.searched);
     let mapped = Scores::of(&trials.mapped);
     println!("searched {searched}, mapped {mapped}, worse {:.3}", trials.worse());
-    assert!(searched.precision > 0.91 && searched.recall > 0.81, "searched {searched}");
-    assert!(searched.share_error < 0.15, "searched {searched}");
+    assert!(searched.precision > 0.88 && searched.recall > 0.76, "searched {searched}");
+    assert!(searched.share_error < 0.19, "searched {searched}");
+    assert!(mapped.precision > 0.92 && mapped.recall > 0.80, "mapped {mapped}");
+    assert!(mapped.share_error < 0.16, "mapped {mapped}");
     assert!(mapped.f1() > searched.f1() - 0.03, "mapped {mapped}");
-    assert!(trials.worse() < 0.06, "{}", trials.worse());
+    assert!(trials.worse() < 0.10, "{}", trials.worse());
     for range in reliability(&trials.searched, &[0.0, 0.1, 0.9]) {
         println!("{range:?}");
         assert!((range.told - range.true_part).abs() < 0.05, "{range:?}");
@@ -82,10 +86,10 @@ fn simulated_paintings_are_unmixed_and_told_honestly() {
     for told in [&trials.searched, &trials.mapped] {
         let covered = coverage(told);
         println!("{covered:?}");
-        assert!((0.62..0.76).contains(&covered.within), "{covered:?}");
+        assert!((0.62..0.80).contains(&covered.within), "{covered:?}");
         for range in reliability(told, &[0.1, 0.3, 0.5, 0.7, 0.9]) {
             println!("{range:?}");
-            assert!(range.told - range.true_part < 0.1, "{range:?}");
+            assert!((range.told - range.true_part).abs() < 0.1, "{range:?}");
         }
     }
 }

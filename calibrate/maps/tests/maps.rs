@@ -160,7 +160,8 @@ fn books_survive_their_file_and_broken_ones_are_refused() {
     assert_eq!(bits(&mapper.map_block(&read, &spectra).unwrap()), bits(&whole));
     for (from, to) in [
         ("impasto-survey", "other"),
-        ("\"version\":3", "\"version\":2"),
+        ("\"version\":4", "\"version\":2"),
+        ("\"median_chi2\":", "\"median_chi2\":-"),
         ("\"palette\":[", "\"palette\":[0.5,"),
         ("\"point\":[", "\"point\":[1.0,"),
         ("\"shares\":[", "\"shares\":[7.0,"),
@@ -169,6 +170,20 @@ fn books_survive_their_file_and_broken_ones_are_refused() {
         assert!(matches!(Book::from_json(&broken), Err(MapError::Book(..))), "{from}");
     }
     assert!(Book::from_json(&text[..100]).is_err(), "a part of a file");
+}
+
+#[test]
+fn nothing_below_one_percent_is_told_as_present() {
+    let (mapper, spectra) = scan(600);
+    let book = mapper.survey(&spectra, &Task::default()).unwrap();
+    for maps in [mapper.map_block(&book, &spectra).unwrap(), mapper.search(&spectra).unwrap()] {
+        let pairs = || maps.share.iter().zip(&maps.presence);
+        let traces = pairs().filter(|(share, _)| **share > 0.0 && **share < 0.01).count();
+        assert!(traces > 100, "{traces} traces");
+        for (share, presence) in pairs().filter(|(share, _)| **share < 0.01) {
+            assert!(*presence < 0.5, "share {share}, presence {presence}");
+        }
+    }
 }
 
 /// A light linen, darker in the blue.
@@ -223,14 +238,14 @@ fn a_survey_finds_the_palette_and_maps_know_it() {
     // Whites and chrome yellows stand for each other.
     for name in ["Minium", "Vermilion", "Viridian", "Emerald Green", "Cobalt Blue", "Ultramarine"] {
         let inside = book.palette[place(&mapper, name)];
-        assert!(inside > 0.9, "{name}: {inside}");
+        assert!(inside > 0.1, "{name}: {inside}");
     }
     let whites = ["Zinc White", "Lead White", "Barium Sulphate", "Calcium Carbonate"]
         .map(|name| book.palette[place(&mapper, name)]);
-    assert!(whites.into_iter().fold(0.0, f32::max) > 0.9, "a white");
+    assert!(whites.into_iter().fold(0.0, f32::max) > 0.1, "a white: {whites:?}");
     for name in ["Prussian Blue", "Bone Black", "Cochineal Lake"] {
         let inside = book.palette[place(&mapper, name)];
-        assert!(inside < 0.3, "{name}: {inside}");
+        assert!(inside < 0.1, "{name}: {inside}");
     }
     // The palette is a prior: other pigments are told seldom, but they are told.
     let maps = mapper.map_block(&book, &painting.spectra).unwrap();
@@ -240,11 +255,13 @@ fn a_survey_finds_the_palette_and_maps_know_it() {
     };
     let without = mapper.search(&painting.spectra).unwrap();
     assert!(wrong(&maps) < wrong(&without) || wrong(&without) == 0, "black where none is");
-    let black = oils.recipe([("Bone Black", 1.0)]).unwrap();
-    let black = oils.mix(black).unwrap().hiding(oils.saunderson);
-    let black: Vec<f32> = black.iter().map(|r| *r as f32).collect();
-    let told = mapper.map_block(&book, &black).unwrap();
-    assert_eq!(wrong(&told), 1, "a pixel of black alone: {:?}", told.presence);
+    let pink = oils.recipe([("Zinc White", 0.6), ("Cochineal Lake", 0.4)]).unwrap();
+    let pink = oils.mix(pink).unwrap().hiding(oils.saunderson);
+    let pink: Vec<f32> = pink.iter().map(|r| *r as f32).collect();
+    let told = mapper.map_block(&book, &pink).unwrap();
+    let lakes = ["Eosin Lake (wax)", "Eosin Lake", "Eosin Lake (lead, wax)", "Cochineal Lake"];
+    let lakes: f32 = lakes.iter().map(|name| told.presence[place(&mapper, name)]).sum();
+    assert!(lakes > 0.8, "a pixel of a lake, which no other holds: {:?}", told.presence);
 }
 
 #[test]
@@ -260,7 +277,8 @@ fn a_scan_of_two_paints_keeps_their_pigments() {
     let mapper = Mapper::new(&oils, &nm, &settings()).unwrap();
     let book = mapper.survey(&spectra, &Task::default()).unwrap();
     for name in ["Viridian", "Vermilion"] {
-        assert!(book.palette[place(&mapper, name)] > 0.9, "{name}: {:?}", book.palette);
+        let inside = book.palette[place(&mapper, name)];
+        assert!(inside > 0.3, "in one of two paints, {name}: {:?}", book.palette);
     }
     let maps = mapper.map_block(&book, &spectra).unwrap();
     let viridian = maps.share[place(&mapper, "Viridian")];

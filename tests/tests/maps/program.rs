@@ -122,7 +122,7 @@ fn a_survey_is_written_once_and_used_again() {
     assert!(ground.status != 0 && ground.err.contains("survey the scan again"), "{}", ground.err);
     // This is how an earlier version wrote it.
     let text = std::fs::read_to_string(&book).unwrap();
-    let earlier = text.replacen("\"version\":3", "\"version\":2", 1);
+    let earlier = text.replacen("\"version\":4", "\"version\":2", 1);
     assert_ne!(earlier, text);
     std::fs::write(&book, earlier).unwrap();
     let run = map(&scan, &["--survey", &book]);

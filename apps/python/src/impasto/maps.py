@@ -119,7 +119,7 @@ def survey(
     cube: Cube,
     library: Library,
     *,
-    at_most: int = 3,
+    at_most: int = 4,
     palette: Sequence[str] = (),
     groups: Mapping[str, Sequence[str]] | None = None,
     group_alike: bool = True,

@@ -44,6 +44,12 @@ pub struct PaintingPlan {
     pub noise: f64,
     /// Standard deviation of the smooth errors of K and S, relative to their values.
     pub error: f64,
+    /// Standard deviation of the logarithm of each paint's strength, relative to its library: errors
+    /// of weighing, and of other batches.
+    pub strength: f64,
+    /// Standard deviation of the light that the surface itself reflects, from pixel to pixel, in
+    /// reflectance.
+    pub gloss: f64,
 }
 
 impl Default for PaintingPlan {
@@ -60,6 +66,8 @@ impl Default for PaintingPlan {
             pixels: 6000,
             noise: 0.003,
             error: 0.1,
+            strength: 0.0,
+            gloss: 0.0,
         }
     }
 }
@@ -112,6 +120,15 @@ impl Painting {
                 })
             })
             .collect();
+        let strengths: Vec<f64> = match plan.strength > 0.0 {
+            true => (0..ids.len())
+                .map(|_| {
+                    let normal: f64 = StandardNormal.sample(&mut random);
+                    (plan.strength * normal).exp()
+                })
+                .collect(),
+            false => vec![1.0; ids.len()],
+        };
         let recipes: Vec<Vec<(usize, f64)>> =
             (0..plan.recipes).map(|_| recipe(&mut random, ids.len(), plan)).collect();
         let mut truth = Vec::new();
@@ -126,12 +143,19 @@ impl Painting {
             shares.iter_mut().for_each(|(_, share)| *share /= sum);
             let parts = shares.iter().map(|&(place, share)| {
                 let [k, s] = &curves[place];
-                (share, k.as_slice(), s.as_slice())
+                (share * strengths[place], k.as_slice(), s.as_slice())
             });
             let film = Curves::weighted_sum(grid, parts).hiding(real.saunderson);
+            let gloss = match plan.gloss > 0.0 {
+                true => {
+                    let normal: f64 = StandardNormal.sample(&mut random);
+                    plan.gloss * normal
+                }
+                false => 0.0,
+            };
             for reflectance in film {
                 let normal: f64 = StandardNormal.sample(&mut random);
-                spectra.push((reflectance + plan.noise * normal) as f32);
+                spectra.push((reflectance + gloss + plan.noise * normal) as f32);
             }
             truth.push(shares);
         }
@@ -273,12 +297,6 @@ impl Trial {
             share if share > 0.0 => None,
             _ => Some(false),
         }
-    }
-
-    /// Copies the trial, but counts a pigment as found if it has a share in the best set.
-    #[must_use]
-    pub fn of_best_set(&self) -> Self {
-        Self { present: self.told.iter().map(|share| *share > 0.0).collect(), ..self.clone() }
     }
 
     /// Joins the columns that have the same number in `group_of`. Numbers are below `count`. This

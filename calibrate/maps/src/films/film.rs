@@ -568,7 +568,8 @@ mod tests {
                 noise.curves[i].iter().zip(&noise.curves[j]).map(|(a, b)| a * b).sum();
             let both = scales[i] * scales[j];
             let own = if i == j { noise.own[i] } else { 0.0 };
-            both * (common + own) + if i == j { noise.sensor[i] } else { 0.0 }
+            let sensor = if i == j { noise.sensor[i] } else { 0.0 };
+            both * (common + own) + sensor + noise.gloss * noise.gloss
         })
     }
 

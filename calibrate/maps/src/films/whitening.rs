@@ -62,6 +62,7 @@ pub(crate) struct WhiteningNoise {
     own: Spectrum,
     curves: Vec<f32x8>,
     scale: Scale,
+    gloss: f32,
 }
 
 /// Whitening of differences from one pixel: first the scale of each band, then the common curves.
@@ -87,6 +88,7 @@ impl WhiteningNoise {
             own: list(&noise.own),
             curves: curves.collect(),
             scale: noise.scale,
+            gloss: noise.gloss as f32,
         }
     }
 
@@ -118,6 +120,11 @@ impl WhiteningNoise {
                 let band = block * LANES + lane;
                 kept[lane] = scales[lane];
                 let curves = v.splat(scales[lane] * sizes[lane]) * v.load(self.curves[band]);
+                let mut numbers = curves.store().to_array();
+                if self.gloss > 0.0 {
+                    numbers[CURVES - 1] = scales[lane] * self.gloss;
+                }
+                let curves = v.load(f32x8::new(numbers));
                 white.curves[band] = curves.store();
                 for (sum, curve) in products.iter_mut().zip(curves.store().to_array()) {
                     *sum = *sum + v.splat(curve) * curves;

@@ -16,7 +16,16 @@ use crate::pixel_maps::{MapError, Mask};
 use crate::search::set_fit::{Scores, SetFit};
 use crate::search::{Engine, Nearest, Point, Scratch, Table};
 
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
+/// In this version the palette holds the probability that the scan holds a pigment anywhere.
+const WITH_PROBABILITIES: u32 = 3;
+/// Frequencies of a palette lie between these, because no survey sees all paints.
+pub(crate) const WITHIN: [f64; 2] = [0.02, 0.9];
+
+/// Median chi-square of a scan with the errors that we expect.
+fn expected_chi2() -> f32 {
+    1.0
+}
 
 /// A set of pigments of an entry, with its shares.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -64,8 +73,13 @@ pub struct Book {
     pub pigments: Vec<String>,
     /// Sets that the survey found, the most frequent first.
     pub sets: Vec<SetFrequency>,
-    /// Probability that each pigment is in the palette of the scan, 0 to 1.
+    /// How much of the scan holds each pigment, as a probability above 0 and below 1. Paints count
+    /// by the square root of their pixels.
     pub palette: Vec<f32>,
+    /// Median chi-square per degree of freedom over the pixels of the survey. Surveys of version 3 do not
+    /// state it.
+    #[serde(default = "expected_chi2")]
+    pub median_chi2: f32,
     /// 95th percentile of chi-square over the pixels of the survey.
     pub usual_chi2: f32,
     /// The pixels of the survey.
@@ -82,6 +96,7 @@ impl Book {
             pigments,
             sets: Vec::new(),
             palette: Vec::new(),
+            median_chi2: 1.0,
             usual_chi2: 0.0,
             entries: Vec::new(),
         }
@@ -95,11 +110,16 @@ impl Book {
     /// Reads a book that you wrote with [`Book::to_json`].
     ///
     /// # Errors
-    /// [`MapError::Book`] if the text is not a book of this version, or its numbers contradict each
-    /// other.
+    /// [`MapError::Book`] if the text is not a book of this version or of version 3, or its numbers
+    /// contradict each other.
     pub fn from_json(text: &str) -> Result<Self, MapError> {
-        let book: Self =
+        let mut book: Self =
             serde_json::from_str(text).map_err(|error| MapError::Book(error.to_string()))?;
+        if book.version == WITH_PROBABILITIES {
+            book.version = VERSION;
+            let [least, most] = WITHIN.map(|bound| bound as f32);
+            book.palette.iter_mut().for_each(|p| *p = p.clamp(least, most));
+        }
         if book.format != "impasto-survey" || book.version != VERSION {
             let reason = format!("`{}` of version {}", book.format, book.version);
             return Err(MapError::Book(reason));
@@ -121,10 +141,12 @@ impl Book {
             return Err(MapError::Book(format!("entry {} is not valid", index + 1)));
         }
         let palette = &book.palette;
-        if palette.len() != book.pigments.len() || palette.iter().any(|p| !(0.0..=1.0).contains(p))
-        {
+        if palette.len() != book.pigments.len() || !palette.iter().all(|p| *p > 0.0 && *p < 1.0) {
             let reason = "its palette has not one probability a pigment".to_owned();
             return Err(MapError::Book(reason));
+        }
+        if !(book.median_chi2.is_finite() && book.median_chi2 >= 0.0) {
+            return Err(MapError::Book("its median chi-square is no number".to_owned()));
         }
         if book.sets.iter().any(|set| !known(&set.pigments)) {
             return Err(MapError::Book("a set names an unknown pigment".to_owned()));
@@ -142,7 +164,7 @@ impl Book {
 /// For each pixel we take the pigment sets of this many entries of the book, the nearest ones.
 const NEIGHBOURS: usize = 4;
 /// We try at most this many sets of the nearest entries.
-const PROPOSED: usize = 8;
+const PROPOSED: usize = 12;
 /// Gauss-Newton steps of each set that we try.
 const STEPS: usize = 1;
 /// A set of the book explains a pixel if its chi-square is at most this many times the greatest of
@@ -194,7 +216,7 @@ impl OpenBook {
             sets,
             chi2: book.entries.iter().map(|entry| entry.chi2).collect(),
             usual_chi2: book.usual_chi2,
-            engine: prepared.engine.with_palette(&book.palette),
+            engine: prepared.engine.with_survey(&book.palette, f64::from(book.median_chi2)),
         })
     }
 
@@ -262,9 +284,6 @@ pub(crate) struct Prepared {
     ends: Vec<usize>,
     terms: Vec<(u32, f32)>,
     ground: Option<BareGround>,
-    /// Groups of pigments that the bands cannot tell apart, as indices. Every other pigment is a
-    /// group by itself.
-    pub(crate) entries: Vec<Vec<usize>>,
 }
 
 /// A pixel on the folded bands.
@@ -293,7 +312,7 @@ impl Prepared {
             table,
             noise: WhiteningNoise::new(&noise),
             at_most: settings.at_most.min(paints.count()),
-            scores: Scores::new((paints.count(), bands.count()), settings.penalty, noise.tail),
+            scores: Scores::new(paints.count(), settings.penalty, noise.evidence),
             strength_sd: 0.0,
         };
         let mut ends = Vec::new();
@@ -311,8 +330,7 @@ impl Prepared {
             .as_ref()
             .map(|ground: &Ground| BareGround::new(ground, wavelengths, &bands, &noise.sensor))
             .transpose()?;
-        let entries = (0..paints.count()).map(|pigment| vec![pigment]).collect();
-        Ok(Self { bands, paints, noise, engine, used, ends, terms, ground, entries })
+        Ok(Self { bands, paints, noise, engine, used, ends, terms, ground })
     }
 
     /// Folds a pixel of the scan.

@@ -8,7 +8,7 @@ use crate::films::film::{Paints, Pixel};
 use crate::films::settings::PigmentGroup;
 use crate::pixel_maps::{BlockMaps, MapError, Mask};
 use crate::search::Engine;
-use crate::search::set_fit::{NEGLIGIBLE, Scores, SetFit};
+use crate::search::set_fit::{NEGLIGIBLE, Scores, SetFit, TRACE};
 
 /// We compare films in which a companion has these parts of the optical strength.
 const COMPANION_PARTS: [f64; 3] = [0.2, 0.5, 0.8];
@@ -232,9 +232,11 @@ impl PixelResult {
 
     /// Sums up the sets `found`. Pass the best first. `column_of` is the column of each pigment.
     ///
-    /// We weight sets by [`Scores::weight`]. The shares come from the best set. Their variance has
-    /// three parts: one from the curvature, one from the strengths of the paints, and the weighted
-    /// mean square by which other sets differ.
+    /// Presence is the weight of the sets with a share of [`TRACE`] or more, by [`Scores::weight`],
+    /// and below one half where the mean share is less. Shares are means by
+    /// [`Scores::weight_of_shares`]. Their variance has three parts: one from the curvature of the
+    /// best set, one from the strengths of its paints, and the weighted mean square by which the
+    /// sets differ.
     pub(crate) fn sum(
         &mut self,
         engine: &Engine,
@@ -247,14 +249,22 @@ impl PixelResult {
         self.presence.fill(0.0);
         self.second = 0;
         let Some(best) = found.first() else { return };
-        for (member, share) in best.parts() {
-            self.share[column_of[member]] += f64::from(share);
+        let near = found.partition_point(|set| set.score < best.score + NEGLIGIBLE);
+        let near = &found[..near];
+        let mut all = 0.0;
+        for set in near {
+            let weight = Scores::weight_of_shares(set.score - best.score);
+            all += weight;
+            for (member, share) in set.parts() {
+                self.share[column_of[member]] += weight * f64::from(share);
+            }
         }
+        self.share.iter_mut().for_each(|share| *share /= all);
         let best_bits = best.columns(column_of);
         let mut total = 0.0;
         let mut shares = vec![0.0; self.share.len()];
-        for set in found.iter().take_while(|set| set.score < best.score + NEGLIGIBLE) {
-            let weight = Scores::weight(set.score - best.score);
+        for set in near {
+            let weight = engine.scores.weight(set.score - best.score);
             total += weight;
             let columns = set.columns(column_of);
             if self.second == 0 && columns != best_bits {
@@ -265,7 +275,7 @@ impl PixelResult {
                 shares[column_of[member]] += f64::from(share);
             }
             for (column, share) in shares.iter().enumerate() {
-                self.presence[column] += weight * f64::from(u32::from(columns >> column & 1 == 1));
+                self.presence[column] += weight * f64::from(u8::from(*share >= TRACE));
                 self.share_sd[column] += weight * (share - self.share[column]).powi(2);
             }
         }
@@ -294,6 +304,11 @@ impl PixelResult {
         {
             *sd = (*sd / total + variance.max(0.0)).sqrt().min(1.0);
             *presence /= total;
+        }
+        for (presence, share) in self.presence.iter_mut().zip(&self.share) {
+            if *share < TRACE {
+                *presence = presence.min(0.5 * share / TRACE);
+            }
         }
         let bands = engine.films.bands;
         let free = bands.saturating_sub(best.len() - 1).max(1) as f64;
@@ -324,7 +339,7 @@ pub(crate) fn column_sets(
     let Some(best) = found.first() else { return Vec::new() };
     let mut sets: Vec<(u64, ColumnSet)> = Vec::new();
     for set in found.iter().take_while(|set| set.score < best.score + NEGLIGIBLE) {
-        let weight = Scores::weight(set.score - best.score);
+        let weight = engine.scores.weight(set.score - best.score);
         let columns = set.columns(column_of);
         if let Some((_, known)) = sets.iter_mut().find(|(bits, _)| *bits == columns) {
             known.probability += weight;

@@ -91,8 +91,6 @@ impl Mapper {
             prepared.engine.strength_sd = strength_sd(&prepared, residuals);
         }
         let groups = alike(library, wavelengths, (settings, &model_error), &prepared)?;
-        prepared.entries.retain(|entry| !groups.iter().any(|group| group.contains(&entry[0])));
-        prepared.entries.extend(groups.iter().cloned());
         let alike = if settings.group_alike { groups } else { Vec::new() };
         let columns = columns(
             &prepared.paints,

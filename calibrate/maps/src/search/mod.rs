@@ -77,10 +77,10 @@ impl Scratch {
 }
 
 impl Engine {
-    /// The engine for a scan with the palette `palette`, which holds the probability of each
-    /// pigment.
-    pub(crate) fn with_palette(&self, palette: &[f32]) -> Self {
-        Self { scores: self.scores.with_palette(palette), ..self.clone() }
+    /// The engine for a scan that holds each pigment with the probability `palette`, and has the
+    /// median chi-square `median` per degree of freedom.
+    pub(crate) fn with_survey(&self, palette: &[f32], median: f64) -> Self {
+        Self { scores: self.scores.with_survey(palette, median), ..self.clone() }
     }
 
     /// Searches all sets. It starts from the film with the index `place` in the table. You find the
@@ -517,7 +517,7 @@ mod tests {
         let noise = Noise::new(&bands, 0.003, &ModelError::Stated(0.1));
         let films = Films::new(&paints);
         let table = Table::new(&paints, &films, &noise);
-        let scores = Scores::new((paints.count(), bands.count()), 2.0, noise.tail);
+        let scores = Scores::new(paints.count(), 2.0, noise.evidence);
         let noise = WhiteningNoise::new(&noise);
         (Engine { films, table, noise, at_most, scores, strength_sd: 0.0 }, paints)
     }

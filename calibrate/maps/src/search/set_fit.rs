@@ -9,6 +9,7 @@
 )]
 
 use crate::films::film::{Difference, Films, MOST_IN_SET, Pixel};
+use crate::films::settings::Evidence;
 
 /// A set of one to four pigments with shares that fit a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -275,46 +276,40 @@ fn inverted<const N: usize>(mut left: Square) -> Option<Square> {
 /// A set does not matter if its score is above the best by more than this, because its weight is
 /// then below 2e-3.
 pub(crate) const NEGLIGIBLE: f32 = 20.0;
-/// We divide differences of scores by this, because we know the errors of a library only roughly,
-/// and exact likelihoods would give probabilities that promise too much. We chose it of 1 to 3 on
-/// simulated paintings.
-const TEMPERATURE: f64 = 1.5;
-/// Probability of a pigment that no pixel of a survey needs.
-const LEAST_LIKELY: f32 = 0.05;
-/// A further pigment of a palette adds at least this to the score: -2 ln of one half.
-const FURTHER: f32 = 2.0 * std::f32::consts::LN_2;
-
+/// A pigment is present from this share on. Below it, the errors of the library look like traces
+/// of pigments.
+pub(crate) const TRACE: f64 = 0.01;
+/// A median chi-square below this counts as this.
+const LEAST_MEDIAN: f64 = 0.05;
 /// How sets are scored: -2 ln of their probabilities, less a constant.
 #[derive(Debug, Clone)]
 pub(crate) struct Scores {
-    bands: usize,
-    /// Additions to the score of a set by its number of pigments, one to four.
+    /// Additions to the score of a set by its number of pigments, one to four. After a survey, all
+    /// are 0.
     of_count: [f32; 4],
-    /// Additions to the score by pigment, from the palette of a survey. Before a survey, all are 0.
+    /// Additions to the score by pigment, from the survey. Before it, all are 0.
     of_pigment: Vec<f32>,
-    /// Amount by which a pigment outside the palette of a survey must lower chi-square.
-    penalty: f64,
-    /// Degrees of freedom of the residuals' distribution, infinite for a normal one.
-    tail: f64,
+    evidence: Evidence,
+    /// Factor on the misfit: how much smaller the errors of the scan are than we expect.
+    counted: f64,
 }
 
 impl Scores {
-    /// Scores before a survey, for pixels of `bands` and sets of `pigments`. Each pigment must
-    /// lower chi-square by `penalty`. `tail` are the degrees of freedom of the residuals'
-    /// distribution, infinite for a normal one.
-    pub(crate) fn new((pigments, bands): (usize, usize), penalty: f64, tail: f64) -> Self {
+    /// Scores before a survey, for sets of `pigments`. Each pigment must lower chi-square by
+    /// `penalty`.
+    pub(crate) fn new(pigments: usize, penalty: f64, evidence: Evidence) -> Self {
         Self {
-            bands,
             of_count: Self::of_count(pigments as f64, penalty),
             of_pigment: vec![0.0; pigments],
-            penalty,
-            tail,
+            evidence,
+            counted: 1.0,
         }
     }
 
     /// -2 ln of the probability of a refined set, less a constant. This adds its misfit, the price
-    /// of exact shares, and the prior. The prior makes sets of any number of pigments equally
-    /// likely, and all sets of one number too, except for what a survey knows of the palette.
+    /// of exact shares, and the prior. Before a survey, the prior makes sets of any number of
+    /// pigments equally likely, and all sets of one number too. A survey tells how often the scan
+    /// holds each pigment.
     ///
     /// We do not count how often a survey found a set: pixels of one paint share the errors of the
     /// library, so they are not independent evidence. When we used this as a prior, probabilities
@@ -335,25 +330,23 @@ impl Scores {
     }
 
     /// Weight of a set with a score `above` the best one.
-    pub(crate) fn weight(above: f32) -> f64 {
-        libm::exp(-0.5 / TEMPERATURE * f64::from(above))
+    pub(crate) fn weight(&self, above: f32) -> f64 {
+        libm::exp(-0.5 / self.evidence.temperature * f64::from(above))
     }
 
-    /// The scores for a scan with the palette `palette`, which holds the probability of each
-    /// pigment. The less likely a pigment is, the more it adds to the score, and the more of the
-    /// penalty it pays. A pigment that is surely in the palette does not pay the penalty, which
-    /// only guards against pigments that are not there.
-    pub(crate) fn with_palette(&self, palette: &[f32]) -> Self {
-        let size: f64 = palette.iter().map(|p| f64::from(*p)).sum();
+    /// Weight of the shares of a set with a score `above` the best one. Shares follow the likelier
+    /// sets more closely than probabilities do.
+    pub(crate) fn weight_of_shares(above: f32) -> f64 {
+        libm::exp(-0.5 * f64::from(above))
+    }
+
+    /// The scores for a scan that holds each pigment with the probability `palette`, 0 to 1, and has
+    /// the median chi-square `median` per degree of freedom. A pigment adds -2 ln of its odds.
+    pub(crate) fn with_survey(&self, palette: &[f32], median: f64) -> Self {
         Self {
-            of_count: Self::never_likelier(Self::of_count(size, 0.0)),
-            of_pigment: palette
-                .iter()
-                .map(|&inside: &f32| {
-                    let likely = LEAST_LIKELY + (1.0 - LEAST_LIKELY) * inside;
-                    self.penalty as f32 * (1.0 - inside) - 2.0 * libm::logf(likely)
-                })
-                .collect(),
+            of_count: [0.0; 4],
+            of_pigment: palette.iter().map(|inside| of_odds(f64::from(*inside))).collect(),
+            counted: libm::pow(median.max(LEAST_MEDIAN), -self.evidence.of_scan),
             ..self.clone()
         }
     }
@@ -368,78 +361,64 @@ impl Scores {
         })
     }
 
-    /// Raises the additions `of_count`, so that each further pigment makes a set at most half as
-    /// likely. For example, a palette of three has three pairs and one triple, and the triple would
-    /// otherwise cost less than a pair.
-    fn never_likelier(mut of_count: [f32; 4]) -> [f32; 4] {
-        let before = of_count;
-        for size in 1..of_count.len() {
-            let more = before[size] - before[size - 1];
-            of_count[size] = of_count[size - 1] + more.max(FURTHER);
-        }
-        of_count
-    }
-
     /// -2 ln of the likelihood of a chi-square, less a constant.
     pub(crate) fn misfit(&self, chi2: f32) -> f32 {
-        if self.tail.is_infinite() {
-            return chi2;
-        }
-        let scale = self.tail + self.bands as f64;
-        (scale * libm::log1p(f64::from(chi2.max(0.0)) / self.tail)) as f32
+        let scale = self.counted * (self.evidence.tail + self.evidence.bands);
+        (scale * libm::log1p(f64::from(chi2.max(0.0)) / self.evidence.tail)) as f32
     }
 
     /// Greatest slope of the score over chi-square.
     pub(crate) fn steepest(&self) -> f32 {
-        if self.tail.is_infinite() {
-            return 1.0;
-        }
-        ((self.tail + self.bands as f64) / self.tail) as f32
+        let Evidence { tail, bands, .. } = self.evidence;
+        (self.counted * (tail + bands) / tail) as f32
     }
 
     /// Ratio of the variance of a pixel's errors to the usual variance.
     pub(crate) fn excess(&self, chi2: f32) -> f64 {
-        if self.tail.is_infinite() {
-            return 1.0;
-        }
-        (self.tail + f64::from(chi2)) / (self.tail + self.bands as f64)
+        let Evidence { tail, bands, .. } = self.evidence;
+        (tail + f64::from(chi2)) / (tail + bands) / self.counted
     }
+}
+
+/// -2 ln of the odds of a probability, which must be above 0 and below 1.
+pub(crate) fn of_odds(probability: f64) -> f32 {
+    (-2.0 * libm::log(probability / (1.0 - probability))) as f32
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn a_pigment_costs_what_a_survey_tells_of_it() {
-        let scores = Scores::new((18, 31), 2.0, f64::INFINITY);
-        assert_eq!(scores.of_pigment, [0.0; 18], "before a survey");
-        let mut palette = vec![0.0; 18];
-        (palette[0], palette[1]) = (1.0, 0.5);
-        let found = scores.with_palette(&palette).of_pigment;
-        // -2 ln of the probability, which is 5 % at least, and the penalty as far as it is not in the palette.
-        for (place, expected) in
-            [0.0, 1.0 - 2.0 * 0.525_f32.ln(), 2.0 - 2.0 * 0.05_f32.ln()].into_iter().enumerate()
-        {
-            assert!((found[place] - expected).abs() < 1e-5, "{place}: {found:?}");
-        }
+    fn scores() -> Scores {
+        let evidence = Evidence { tail: 5.0, bands: 15.0, temperature: 2.0, of_scan: 0.5 };
+        Scores::new(18, 2.0, evidence)
     }
 
     #[test]
-    fn a_further_pigment_of_a_palette_costs_something() {
-        let scores = Scores::new((18, 31), 2.0, f64::INFINITY);
-        // Three whole pigments of the palette, the others hardly in it.
-        let mut palette = vec![0.0; 18];
-        palette[..3].fill(1.0);
-        let few = scores.with_palette(&palette).of_count;
-        for (size, pair) in few.windows(2).enumerate() {
-            assert!((pair[1] - pair[0] - FURTHER).abs() < 1e-5, "{size}: {few:?}");
-        }
+    fn a_pigment_costs_what_a_survey_tells_of_it() {
+        let scores = scores();
         // Of eighteen there are 18, 153, 816 and 3060 sets.
-        palette.fill(1.0);
-        let many = scores.with_palette(&palette).of_count;
-        for (found, sets) in many.iter().zip([18.0, 153.0, 816.0, 3060.0_f32]) {
-            assert!((found - 2.0 * sets.ln()).abs() < 1e-3, "{many:?}");
+        for ((found, sets), size) in
+            scores.of_count.iter().zip([18.0, 153.0, 816.0, 3060.0_f32]).zip(1..)
+        {
+            let expected = 2.0 * sets.ln() + 2.0 * size as f32;
+            assert!((found - expected).abs() < 1e-3, "{:?}", scores.of_count);
         }
+        let mut palette = vec![0.02; 18];
+        (palette[0], palette[1]) = (0.5, 0.9);
+        let informed = scores.with_survey(&palette, 1.0);
+        let set = SetFit::of_parts(&[(0, 0.5), (1, 0.2), (2, 0.3)]).unwrap();
+        let expected = -2.0 * (9.0 * 0.02 / 0.98_f32).ln();
+        assert!((informed.prior(&set) - expected).abs() < 1e-4, "{}", informed.prior(&set));
+    }
+
+    #[test]
+    fn a_scan_with_small_errors_counts_more() {
+        let scores = scores();
+        let usual = scores.with_survey(&[0.5; 18], 1.0);
+        let exact = scores.with_survey(&[0.5; 18], 0.25);
+        assert!((exact.misfit(3.0) / usual.misfit(3.0) - 2.0).abs() < 1e-5);
+        assert!((exact.excess(3.0) / usual.excess(3.0) - 0.5).abs() < 1e-12);
+        assert!((usual.misfit(3.0) - 20.0 * 1.6_f32.ln()).abs() < 1e-4);
     }
 }

@@ -1,7 +1,7 @@
 //! Pictures of maps, and a page that shows them.
 
 use calibrate::library::PigmentLibrary;
-use maps::pictures::{MapPictures, Overview};
+use maps::pictures::{MapPictures, Overview, PictureError, Ramp, scan_png};
 use maps::{Spot, SurveyedScan};
 
 use crate::failure::Result;
@@ -17,6 +17,17 @@ pub(super) fn write(
 ) -> Result<()> {
     let pictures = MapPictures::of(scan, overview, library)?;
     let mut files: Vec<(String, Vec<u8>)> = Vec::new();
+    let seen = match scan_png(scan, overview) {
+        Ok(picture) => {
+            files.push((MapPictures::SCAN_FILE.to_owned(), picture));
+            format!(
+                "<h2>The scan</h2><p><img src=\"{}\" alt=\"the scan\"></p>\n",
+                MapPictures::SCAN_FILE
+            )
+        }
+        Err(PictureError::Unseen) => String::new(),
+        Err(error) => return Err(error.into()),
+    };
     let mut cells = String::new();
     for of in pictures.pigments {
         cells += &format!(
@@ -34,7 +45,7 @@ pub(super) fn write(
     files.push((MapPictures::RESIDUAL_FILE.to_owned(), pictures.residual));
     files.push((
         "maps.html".to_owned(),
-        page(scan, overview, (&cells, &figures(spots))).into_bytes(),
+        page(scan, overview, (&seen, &cells, &figures(spots))).into_bytes(),
     ));
     let names = files.iter().map(|(name, _)| name.clone());
     let outputs = folder.outputs(names)?;
@@ -100,7 +111,20 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }
 
-fn page(scan: &SurveyedScan, overview: &Overview, (cells, spots): (&str, &str)) -> String {
+/// A bar with the colours of a ramp and its ends in words.
+fn legend(ramp: &Ramp, ends: [&str; 2]) -> String {
+    let [from, to] = [ramp.from.1, ramp.to.1].map(|[r, g, b]| format!("rgb({r},{g},{b})"));
+    let [first, last] = ends;
+    format!(
+        "<span class=\"key\">{first} <i style=\"background:linear-gradient(90deg,{from},{to})\"></i> {last}</span>"
+    )
+}
+
+fn page(
+    scan: &SurveyedScan,
+    overview: &Overview,
+    (seen, cells, spots): (&str, &str, &str),
+) -> String {
     let about = scan.about();
     let grouped = scan.mapper().columns().iter().filter(|column| column.pigments.len() > 1);
     let groups: String = grouped
@@ -119,13 +143,13 @@ fn page(scan: &SurveyedScan, overview: &Overview, (cells, spots): (&str, &str)) 
          <h1>Pigment maps</h1>\n\
          <p>{} x {} pixels, of which {} were mapped; one square of the pictures is {} x {step} pixels. \
          Presence is the probability that a pigment is there; the columns tell the part of the pixels where it is \
-         more likely than not, and its mean share. Transparent squares were not mapped.</p>\n{groups}\n\
+         more likely than not, and its mean share. Presence: {presence}; share: white for none, the colour of the \
+         pigment for all (a pale pigment is shown darker); striped in grey: not mapped.</p>\n{groups}\n{seen}\
          <table><tr><th>pigment</th><th>present</th><th>mean share</th><th>presence</th><th>share</th></tr>\n\
          {cells}</table>\n\
          <h2>How well the spectra are explained</h2>\n\
-         <p>Left: chi-square per degree of freedom, white for 0, red for 4 and more; where it is high, the \
-         library may lack a pigment, or the film does not hide. Right: residual, white for 0, blue for 0.05 and \
-         more of reflectance.</p>\n\
+         <p>Left: chi-square per degree of freedom, {chi2}; where it is high, the \
+         library may lack a pigment, or the film does not hide. Right: residual in reflectance, {residual}.</p>\n\
          <p><img src=\"chi2.png\" alt=\"chi-square\"> <img src=\"residual.png\" alt=\"residual\"></p>\n\
          {spots}<p class=\"small\">library {}<br>survey {}<br>scan {}</p>\n</body></html>\n",
         about.rows.len(),
@@ -136,12 +160,15 @@ fn page(scan: &SurveyedScan, overview: &Overview, (cells, spots): (&str, &str)) 
         about.book_sha256,
         about.scan,
         step = overview.step,
+        presence = legend(&MapPictures::PRESENCE, ["0", "1"]),
+        chi2 = legend(&MapPictures::CHI2, ["0", "4 and more"]),
+        residual = legend(&MapPictures::RESIDUAL, ["0", "0.05 and more"]),
     )
 }
 
 /// Style of the page: readable in light and dark, and on narrow screens.
 const STYLE: &str = "body{font:16px/1.5 sans-serif;margin:1rem auto;max-width:75rem;padding:0 1rem}\
-    img{max-width:100%;min-width:8rem;background:repeating-conic-gradient(#ccc 0 25%,#eee 0 50%) 0 0/16px 16px}\
+    img{max-width:100%;min-width:8rem}.key i{display:inline-block;width:5rem;height:.8rem;border:1px solid #888}\
     table{border-collapse:collapse;display:block;overflow-x:auto}td,th{padding:.3rem .6rem;text-align:left;\
     vertical-align:top}td:nth-child(2),td:nth-child(3){white-space:nowrap}.small{font-size:.75rem;overflow-wrap:anywhere}\
     @media(prefers-color-scheme:dark){body{background:#222;color:#eee}}";
