@@ -164,7 +164,7 @@ impl Book {
 /// For each pixel we take the pigment sets of this many entries of the book, the nearest ones.
 const NEIGHBOURS: usize = 4;
 /// We try at most this many sets of the nearest entries.
-const PROPOSED: usize = 12;
+const PROPOSED: usize = 8;
 /// Gauss-Newton steps of each set that we try.
 const STEPS: usize = 1;
 /// A set of the book explains a pixel if its chi-square is at most this many times the greatest of
