@@ -125,18 +125,24 @@ fn recover_button(screen: &Pixels) -> Option<(i32, i32)> {
     None
 }
 
-/// Waits until something lost is offered, and recovers it. On a busy machine a click may come before
-/// the window takes it, so we click again if the offer stays.
+/// Waits until something lost is offered, and recovers it. On a busy machine a click may be lost, so we
+/// click again if the offer stays.
 fn recover(screen: &Screen) {
-    const PATIENCE: Duration = Duration::from_secs(15);
+    const PATIENCE: Duration = Duration::from_secs(5);
     let mut clicked: Option<Instant> = None;
-    until("what was lost is recovered", || match recover_button(&screen.all()) {
-        None => clicked.map(drop),
-        Some(_) if clicked.is_some_and(|at| at.elapsed() < PATIENCE) => None,
-        Some(button) => {
-            screen.click(button);
-            clicked = Some(Instant::now());
-            None
+    until("what was lost is recovered", || {
+        if clicked.is_some_and(|at| at.elapsed() < PATIENCE) {
+            return None;
+        }
+        match recover_button(&screen.all()) {
+            None => clicked.map(drop),
+            Some(button) => {
+                screen.click(button);
+                // A button has another colour below the pointer.
+                screen.aside();
+                clicked = Some(Instant::now());
+                None
+            }
         }
     });
 }
