@@ -289,8 +289,8 @@ impl fmt::Display for StrengthChange {
     }
 }
 
-/// Splits the mixtures of a file into those of two pigments, which are mostly tints, and larger ones.
-/// If there are too few of either kind, all stay in one group.
+/// Splits the mixtures of a file into two groups: mixtures of two pigments, which are mostly tints, and
+/// mixtures of three and more. If either group would be too small, all mixtures stay together.
 fn split<'a, 'b>(
     file: &'a str,
     mixtures: Vec<&'b Mixed<'a>>,

@@ -12,9 +12,10 @@
 //! 4. the same paintings if you know the palette, or K and S, or both, and how much the spectra speak
 //!    for the true pigments where the map found wrong ones,
 //! 5. pixels with a pigment that the library lacks,
-//! 6. paintings of up to five pigments, whose paints are 15 % stronger or weaker than in the library of
-//!    the other half, under a surface that reflects unevenly. We chose how far stated errors count by
-//!    the last figure: the mean of -ln of the probability of what is there and what is not.
+//! 6. paintings of up to five pigments, under a surface that reflects unevenly. The library comes from
+//!    the other half of the readings, and each paint is 15 % stronger or weaker than there. The last
+//!    figure of a line says how much the truth surprises the map: the mean of -ln p, where p is the
+//!    probability that the map gives to what is true. We chose by it how far stated errors count.
 //!
 //! We have no scan of a painting, so these are swatches and simulations only.
 

@@ -28,11 +28,14 @@ const LEAST: f64 = 0.05;
 const RANGES: [f64; 6] = [0.0, 0.1, 0.3, 0.5, 0.7, 0.9];
 const TONES: [&str; 3] = ["dark", "middle", "light"];
 
-/// Pixels of one tone: the maps, those of the pixels that least squares see, and least squares.
+/// Results for the pixels of one tone.
 #[derive(Default)]
 struct Trials {
+    /// The map in each pixel.
     maps: Vec<Trial>,
+    /// The map in the pixels that least squares unmix too.
     seen: ScoreSums,
+    /// Least squares in these pixels.
     least_squares: ScoreSums,
 }
 

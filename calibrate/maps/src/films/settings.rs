@@ -222,11 +222,11 @@ impl Evidence {
         Self { tail: TAIL, bands, temperature: 1.5, of_scan: 0.0 }
     }
 
-    /// For stated errors. Nobody knows them well: those of one pixel may be a few times as large or
-    /// small as stated, and errors of a model are more alike in neighbouring bands than we state. We
-    /// chose the numbers by the likelihood of the true pigments in simulated paintings of up to five
-    /// pigments. They were painted with the oils of one half of the readings, 15 % stronger or
-    /// weaker, and mapped with the other half.
+    /// For stated errors, which are guesses. The errors of one pixel may be a few times as large or as
+    /// small as you state, and neighbouring bands err more alike than we assume. We chose the numbers
+    /// by the likelihood of the true pigments in simulated paintings of up to five pigments. We
+    /// painted these with the oils of one half of the readings, 15 % stronger or weaker, and mapped
+    /// them with the oils of the other half.
     fn of_stated(bands: f64) -> Self {
         Self { tail: 5.0, bands: 0.5 * bands, temperature: 2.0, of_scan: 0.5 }
     }

@@ -71,8 +71,7 @@ pub struct RecipeLimits {
 
 impl RecipeLimits {
     /// Limits with the [usual pigments](PigmentLibrary::usual_pigments) of `library`, up to four in a
-    /// recipe, shares from 1/50, amounts as they were
-    /// measured, and five recipes.
+    /// recipe, shares from 1/50, amounts as they were measured, and five recipes.
     #[must_use]
     pub fn new(
         library: &PigmentLibrary,
