@@ -41,7 +41,7 @@ def test_settings_are_checked(oils: im.Library) -> None:
         im.identify(one, oils, at_most=7)
     with pytest.raises(im.Error, match="exclude"):
         im.identify(one, oils, model_error=0.1, residuals="residuals.json")
-    with pytest.warns(im.FindingWarning, match="mean little"):
+    with pytest.warns(im.FindingWarning, match="off by a factor of 4"):
         im.identify(one, oils, palette=["Viridian", "Zinc White (linseed)"])
 
 

@@ -16,6 +16,9 @@
 //!    the other half of the readings, and each paint is 15 % stronger or weaker than there. The last
 //!    figure of a line says how much the truth surprises the map: the mean of -ln p, where p is the
 //!    probability that the map gives to what is true. We chose by it how far stated errors count.
+//! 7. paintings with a pigment that the library knows as a masstone only, for each oil in turn: the map
+//!    leaves it out, takes it with an assumed S, or knows K and S. Last comes the chi-square of its
+//!    masstone if the other pigments explain it.
 //!
 //! We have no scan of a painting, so these are swatches and simulations only.
 
@@ -24,12 +27,13 @@
 use calibrate::Readings;
 use documents::Task;
 use maps::accuracy::{
-    Baseline, NamedGroups, PaintingPlan, Scores, SwatchTrials, Told, Trial, choose_penalty,
-    coverage, light_palette, missing_pigment, oil_groups, painting_trials, prepared_oils,
-    reliability, residuals_of, swatch_trials,
+    Baseline, NamedGroups, Painting, PaintingPlan, Scores, SwatchTrials, Told, Trial,
+    choose_penalty, coverage, light_palette, missing_pigment, oil_groups, painting_trials,
+    prepared_oils, reliability, residuals_of, swatch_trials,
 };
 use maps::{MapSettings, Mapper, ModelError, USUAL_MODEL_ERROR};
 use pigment::PigmentLibrary;
+use spectra::Viewing;
 
 const SEEDS: std::ops::Range<u64> = 1001..1021;
 /// Noise of an almost noiseless sensor, in reflectance.
@@ -88,12 +92,65 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         print_reliability(&trials.mapped);
     }
 
+    masstones(&oils, &stated)?;
+
     println!("\nPigments that look alike in 31 bands from 400 to 700 nm, told from K and S alone");
     let nm: Vec<f64> = oils.grid.wavelengths_nm().collect();
     let mapper = Mapper::new(&oils, &nm, &MapSettings::default())?;
     for column in mapper.columns().iter().filter(|column| column.pigments.len() > 1) {
         println!("  {}", column.pigments.join(", "));
     }
+    Ok(())
+}
+
+/// Maps paintings with each oil, of which the library knows the masstone alone.
+fn masstones(
+    oils: &PigmentLibrary,
+    stated: &MapSettings,
+) -> Result<(), Box<dyn std::error::Error>> {
+    println!(
+        "\n7. A pigment known as a masstone: left out, S assumed, K and S known; chi-square of it"
+    );
+    let nm: Vec<f64> = oils.grid.wavelengths_nm().collect();
+    let measured = oils.pigments.iter().filter(|pigment| pigment.identified);
+    let names: Vec<String> = measured.map(|pigment| pigment.name.clone()).collect();
+    let mut all = [const { Vec::new() }; 3];
+    for name in &names {
+        let masstone = oils.color([(name.as_str(), 1.0)], &Viewing::default())?;
+        let mut known = oils.clone();
+        let place = known.find(name)?;
+        let pigment = &mut known.pigments[place.0];
+        // As the fit does: the root of Y, if the reference white has S = 1.
+        let assumed = (masstone.xyz.y / 100.0).sqrt();
+        for (k, s) in pigment.absorption.iter_mut().zip(&mut pigment.scattering) {
+            (*k, *s) = (assumed * *k / *s, assumed);
+        }
+        pigment.identified = false;
+        let others = names.iter().filter(|other| *other != name).cloned().collect();
+        let mapper = |library: &PigmentLibrary, palette: Vec<String>| {
+            Mapper::new(library, &nm, &MapSettings { palette, ..stated.clone() })
+        };
+        let mappers =
+            [mapper(&known, others)?, mapper(&known, names.clone())?, mapper(oils, names.clone())?];
+        let mut trials = [const { Vec::new() }; 3];
+        let plans = (1..).map(|seed| PaintingPlan { seed, pixels: 150, ..PaintingPlan::default() });
+        let paintings = plans.map(|plan| Painting::simulate(oils, oils, &plan));
+        for painting in paintings.filter(|painting| painting.pigments.contains(name)).take(4) {
+            for (trials, mapper) in trials.iter_mut().zip(&mappers) {
+                let book = mapper.survey(&painting.spectra, &Task::default())?;
+                let maps = mapper.map_block(&book, &painting.spectra)?;
+                trials.extend(painting.trials(mapper, &maps));
+            }
+        }
+        let narrow: Vec<f32> =
+            masstone.reflectance.values().iter().map(|value| *value as f32).collect();
+        let chi2 = mappers[0].search(&narrow)?.chi2[0];
+        let [without, assumed, measured] = trials.each_ref().map(Scores::of);
+        println!("  {name:24} {without} | {assumed} | {measured} {chi2:6.2}");
+        all.iter_mut().zip(trials).for_each(|(all, trials)| all.extend(trials));
+    }
+    let [without, assumed, measured] = all.each_ref().map(Scores::of);
+    println!("  {:24} {without} | {assumed} | {measured}", "all");
     Ok(())
 }
 

@@ -34,6 +34,7 @@ struct Trials {
     /// The map in each pixel.
     maps: Vec<Trial>,
     /// The map in the pixels that least squares unmix too.
+    compared: Vec<Trial>,
     seen: ScoreSums,
     /// Least squares in these pixels.
     least_squares: ScoreSums,
@@ -99,12 +100,35 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 let present = told.iter().map(|share| *share > LEAST).collect();
                 trials.least_squares.add(&Trial { told, present, ..trial.clone() });
                 trials.seen.add(&trial);
+                trials.compared.push(trial.clone());
             }
             trials.maps.push(trial);
         }
     }
     print(&tones, columns.iter().map(|column| column.name.as_str()));
     Ok(())
+}
+
+/// The least probability from which pigments of the maps are present with the precision `wanted`, with this
+/// precision and the recall. `None` if even the surest are not.
+fn as_precise(trials: &[Trial], wanted: f64) -> Option<(f64, f64, f64)> {
+    let cases = trials.iter().flat_map(|trial| {
+        let probabilities = trial.probability.iter().enumerate();
+        probabilities.filter_map(|(at, probability)| Some((*probability, trial.is_there(at)?)))
+    });
+    let mut cases: Vec<(f64, bool)> = cases.collect();
+    cases.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let there = cases.iter().filter(|(_, is_there)| *is_there).count().max(1) as f64;
+    let mut right = 0.0;
+    let mut found = None;
+    for (told, (probability, is_there)) in (1..).zip(&cases) {
+        right += f64::from(u8::from(*is_there));
+        let precision = right / f64::from(told);
+        if precision >= wanted && *probability > 0.0 {
+            found = Some((*probability, precision, right / there));
+        }
+    }
+    found
 }
 
 fn print<'a>(tones: &[Trials; 3], names: impl Iterator<Item = &'a str>) {
@@ -117,6 +141,18 @@ fn print<'a>(tones: &[Trials; 3], names: impl Iterator<Item = &'a str>) {
         let [all, seen, least_squares] =
             [&all, &trials.seen, &trials.least_squares].map(|sums| sums.scores());
         println!("  {tone:6} {:6}  {all} | {seen} | {least_squares}", trials.maps.len());
+    }
+    println!(
+        "probability from which the maps are as precise as least squares, their precision and recall there, in the same pixels"
+    );
+    for (trials, tone) in tones.iter().zip(TONES) {
+        let wanted = trials.least_squares.scores().precision;
+        match as_precise(&trials.compared, wanted) {
+            Some((probability, precision, recall)) => {
+                println!("  {tone:6} {probability:.2} {precision:.3} {recall:.3}");
+            }
+            None => println!("  {tone:6} nowhere"),
+        }
     }
     println!("presence told, true, times");
     let every: Vec<&Trial> = tones.iter().flat_map(|trials| &trials.maps).collect();

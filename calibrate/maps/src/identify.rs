@@ -102,7 +102,8 @@ pub struct Identified {
     pub mapped_nm: Vec<f64>,
     /// Groups of pigments that count as one.
     pub groups: Vec<Column>,
-    /// Names of the pigments that take no part because K and S of them were not measured.
+    /// Names of the pigments that take no part: those guessed from a colour, and masstones that look
+    /// like a measured pigment.
     pub left_out: Vec<String>,
     /// Effective number of independent wavelengths.
     pub effective_bands: f64,
@@ -493,7 +494,10 @@ mod tests {
         );
         let palette = ["Lead White", "Zinc White (linseed)"].map(str::to_owned).to_vec();
         let named = remark(&oils, &IdentifyRequest { palette, ..IdentifyRequest::default() });
-        assert!(named.contains("warning: shares of Zinc White (linseed) mean little"), "{named}");
+        assert!(
+            named.contains("warning: shares of Zinc White (linseed) may be off by a factor of 4"),
+            "{named}"
+        );
         assert!(!named.contains("take no part"), "{named}");
     }
 

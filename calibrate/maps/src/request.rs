@@ -60,8 +60,8 @@ pub struct MapRequest {
     /// How far K and S of the library may be off, as a fraction [default: 0.1 for a library without
     /// residuals]
     pub model_error: Option<f64>,
-    /// The bare ground, which is then mapped as ground instead of paint: rows and columns of the scan,
-    /// such as 0..20,0..100, or a file with its reflectance
+    /// The bare ground, which is then mapped as ground instead of paint, also where it shows through thin
+    /// paint: rows and columns of the scan, such as 0..20,0..100, or a file with its reflectance
     #[schemars(schema_with = "ground_schema")]
     pub ground: Option<GroundSource>,
     /// Amount by which a further pigment must lower chi-square for the survey to find it

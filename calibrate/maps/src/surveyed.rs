@@ -345,6 +345,7 @@ impl SurveyedScan {
         let Some(set) = self.best_set(&mean)? else {
             return Err(SpotError::NothingMapped(region));
         };
+        let library = self.mapper().with_ground(library)?;
         let mixture = library.mix(library.recipe(set)?)?;
         let told = columns.iter().enumerate().map(|(place, column)| SpotPigment {
             name: column.name.clone(),

@@ -227,6 +227,58 @@ fn bare_ground_is_told_and_paint_is_not_taken_for_it() {
     assert!(error.to_string().contains("400 nm") && error.hint().is_some(), "{error}");
 }
 
+/// Thin films of paint over linen: precision of what a map finds, and mean share error, without the ground.
+fn of_thin_films(settings: &MapSettings) -> (f64, f64) {
+    let (oils, nm) = oils();
+    let names =
+        ["Lead White", "Viridian", "Vermilion", "Cobalt Blue", "Chrome Yellow", "Bone Black"];
+    let pairs = (0..names.len()).flat_map(|a| (a + 1..names.len()).map(move |b| (a, b)));
+    let mut spectra: Vec<f32> = Vec::new();
+    let mut truth = Vec::new();
+    for (a, b) in pairs {
+        let paint = oils.mix(oils.recipe([(names[a], 0.4), (names[b], 0.6)]).unwrap()).unwrap();
+        for thickness in [0.5, 0.8, 1.2, 1.8, 2.5, 3.5] {
+            let film = paint.film(thickness, &linen(&nm), oils.film());
+            spectra.extend(film.iter().map(|value| *value as f32));
+            truth.push([(names[a], 0.4), (names[b], 0.6)]);
+        }
+    }
+    let mapper = Mapper::new(&oils, &nm, settings).unwrap();
+    let book = mapper.survey(&spectra, &Task::default()).unwrap();
+    let maps = mapper.map_block(&book, &spectra).unwrap();
+    let (mut told, mut right, mut error, mut pixels) = (0.0, 0.0, 0.0, 0.0);
+    for (pixel, truth) in truth.iter().enumerate() {
+        if maps.mask[pixel] != Mask::Mapped {
+            continue;
+        }
+        let columns = mapper.columns().iter().zip(pixel * maps.pigments..);
+        let paint = || columns.clone().filter(|(column, _)| column.name != Ground::COLUMN);
+        let all: f32 = paint().map(|(_, at)| maps.share[at]).sum();
+        pixels += 1.0;
+        for (column, at) in paint() {
+            let own = truth.iter().filter(|(name, _)| column.pigments.iter().any(|p| p == name));
+            let own: f64 = own.map(|(_, share)| share).sum();
+            error += 0.5 * (own - f64::from(maps.share[at] / all.max(1e-6))).abs();
+            if maps.presence[at] >= 0.5 {
+                told += 1.0;
+                right += f64::from(u8::from(own > 0.0));
+            }
+        }
+    }
+    assert!(pixels > 60.0, "{pixels} mapped");
+    (right / told, error / pixels)
+}
+
+#[test]
+fn ground_that_shows_through_is_a_column_and_no_paint() {
+    let (_, nm) = oils();
+    let without = of_thin_films(&settings());
+    let ground = Some(Ground::new(nm.clone(), linen(&nm)).unwrap());
+    let with = of_thin_films(&MapSettings { ground, ..settings() });
+    println!("precision, share error: {without:?}, with the ground {with:?}");
+    assert!(with.0 > without.0 + 0.1 && with.1 < without.1 - 0.02, "{without:?} {with:?}");
+}
+
 #[test]
 fn a_survey_finds_the_palette_and_maps_know_it() {
     let (oils, nm) = oils();

@@ -10,6 +10,7 @@
 
 use std::cmp::Ordering::Greater;
 
+use pigment::library::{Pigment, PigmentLibrary};
 use spectra::Grid;
 
 use crate::pixel_maps::MapError;
@@ -204,6 +205,9 @@ const UNEVEN: f64 = 0.005;
 /// A pixel is bare ground up to this chi-square per band.
 const EXPLAINED: f64 = 2.0;
 
+/// Internal reflectances of a ground, so that K/S is above 0 and finite.
+const INTERNAL: [f64; 2] = [1e-3, 0.9995];
+
 /// Reflectance of the bare ground of a painting in the scan.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(try_from = "GroundKeys")]
@@ -251,6 +255,45 @@ impl Ground {
             return Err(ground_error(format!("reflects {value} at {nm} nm")));
         }
         Ok(Self { nm, reflectance })
+    }
+
+    /// The column of the ground in a map: how much of it shows through thin paint.
+    pub const COLUMN: &str = "ground";
+
+    /// `library` with the ground as one more pigment, the last. We know K/S of it, from its reflectance,
+    /// and set S to 1: a film through which the ground shows looks much like the paint mixed with the
+    /// ground. Wavelengths that nobody measured take the nearest reflectance.
+    ///
+    /// # Errors
+    /// [`MapError::Ground`] if a pigment has this name.
+    pub(crate) fn among(&self, library: &PigmentLibrary) -> Result<PigmentLibrary, MapError> {
+        if library.pigments.iter().any(|pigment| pigment.name == Self::COLUMN) {
+            let name = Self::COLUMN;
+            return Err(ground_error(format!("has the name of the library's pigment `{name}`")));
+        }
+        let ratios = library.grid.wavelengths_nm().map(|nm| {
+            let last = *self.reflectance.last().unwrap_or(&0.0);
+            let nearest = if nm < self.nm[0] { self.reflectance[0] } else { last };
+            let measured = self.at(nm).unwrap_or(nearest);
+            let internal = library.saunderson.internal_from_measured(measured).unwrap_or(0.0);
+            let internal = internal.clamp(INTERNAL[0], INTERNAL[1]);
+            (1.0 - internal).powi(2) / (2.0 * internal)
+        });
+        let mut library = library.clone();
+        let absorption: Vec<f64> = ratios.collect();
+        library.pigments.push(Pigment {
+            name: Self::COLUMN.to_owned(),
+            color_index: None,
+            scattering: vec![1.0; absorption.len()],
+            absorption,
+            absorption_sd: Vec::new(),
+            scattering_sd: Vec::new(),
+            identified: false,
+            guessed: false,
+            measured_amounts: None,
+            notes: Vec::new(),
+        });
+        Ok(library)
     }
 
     /// Interpolates the reflectance at a wavelength. Outside the measured ones this is `None`.
@@ -347,6 +390,7 @@ impl BareGround {
 mod tests {
     use super::*;
     use nalgebra::{DMatrix, DVector};
+    use pigment::library::{Pigment, PigmentLibrary};
     use spectra::Grid;
 
     fn oils() -> Grid {

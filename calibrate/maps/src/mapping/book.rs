@@ -230,7 +230,8 @@ impl OpenBook {
     pub(crate) fn find(&self, folded: &Folded, scratch: &mut Scratch) -> bool {
         let engine = &self.engine;
         let near = self.nearest.find::<NEIGHBOURS>(&folded.projected);
-        scratch.found.clear();
+        scratch.clear();
+        let mut proposed = Vec::with_capacity(PROPOSED);
         let mut usual = self.usual_chi2;
         // The best sets of all neighbours come before the second-best of any.
         'ranks: for rank in 0.. {
@@ -242,22 +243,22 @@ impl OpenBook {
                 }
                 let Some(set) = self.sets(entry).get(rank) else { continue };
                 any = true;
-                if scratch.found.iter().any(|found| found.key() == set.key()) {
+                if proposed.iter().any(|known: &SetFit| known.key() == set.key()) {
                     continue;
                 }
-                if scratch.found.len() == PROPOSED {
+                if proposed.len() == PROPOSED {
                     break 'ranks;
                 }
-                scratch.found.push(*set);
+                proposed.push(*set);
             }
             if !any {
                 break;
             }
         }
-        for set in &mut scratch.found {
-            *set = engine.refined(&folded.pixel, *set, STEPS);
+        for set in proposed {
+            engine.add(&folded.pixel, set, STEPS, scratch);
         }
-        engine.sort(&folded.pixel, &mut scratch.found);
+        engine.sort(&folded.pixel, scratch);
         let explained = scratch.found.first().is_some_and(|best| best.chi2 <= usual);
         if !explained {
             let place = engine.table.nearest(&folded.projected);
@@ -313,7 +314,7 @@ impl Prepared {
             noise: WhiteningNoise::new(&noise),
             at_most: settings.at_most.min(paints.count()),
             scores: Scores::new(paints.count(), settings.penalty, noise.evidence),
-            strength_sd: 0.0,
+            strength_sd: vec![0.0; paints.count()],
         };
         let mut ends = Vec::new();
         let mut terms = Vec::new();

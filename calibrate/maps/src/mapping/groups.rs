@@ -7,8 +7,8 @@ use super::book::Prepared;
 use crate::films::film::{Paints, Pixel};
 use crate::films::settings::PigmentGroup;
 use crate::pixel_maps::{BlockMaps, MapError, Mask};
-use crate::search::Engine;
 use crate::search::set_fit::{NEGLIGIBLE, Scores, SetFit, TRACE};
+use crate::search::{Engine, Scratch};
 
 /// We compare films in which a companion has these parts of the optical strength.
 const COMPANION_PARTS: [f64; 3] = [0.2, 0.5, 0.8];
@@ -230,7 +230,7 @@ impl PixelResult {
         maps.mask.push(Mask::Mapped);
     }
 
-    /// Sums up the sets `found`. Pass the best first. `column_of` is the column of each pigment.
+    /// Sums up the sets of a pixel. `column_of` is the column of each pigment.
     ///
     /// Presence is the weight of the sets with a share of [`TRACE`] or more, by [`Scores::weight`],
     /// and below one half where the mean share is less. Shares are means by
@@ -240,8 +240,7 @@ impl PixelResult {
     pub(crate) fn sum(
         &mut self,
         engine: &Engine,
-        pixel: &Pixel,
-        found: &[SetFit],
+        Scratch { found, of_best, .. }: &Scratch,
         column_of: &[usize],
     ) {
         self.share.fill(0.0);
@@ -279,17 +278,17 @@ impl PixelResult {
                 self.share_sd[column] += weight * (share - self.share[column]).powi(2);
             }
         }
-        let difference = best.difference(&engine.films, pixel);
         let excess = engine.scores.excess(best.chi2);
-        let covariance = best.covariance(&difference);
+        let covariance = best.covariance(of_best);
         // A share changes with the logarithm of a paint's strength by share x (own column - column's share).
         let mut variance: Vec<f64> = (0..self.share.len())
             .map(|column: usize| -> f64 {
                 let slopes = best.parts().map(|(member, share)| {
                     let own = f64::from(u8::from(column_of[member] == column));
-                    f64::from(share) * (own - self.share[column])
+                    (engine.strength_sd[member] * f64::from(share) * (own - self.share[column]))
+                        .powi(2)
                 });
-                slopes.map(|slope| (engine.strength_sd * slope).powi(2)).sum()
+                slopes.sum()
             })
             .collect();
         for (i, (a, _)) in best.parts().enumerate() {
@@ -313,7 +312,7 @@ impl PixelResult {
         let bands = engine.films.bands;
         let free = bands.saturating_sub(best.len() - 1).max(1) as f64;
         self.chi2 = f64::from(best.chi2) / free;
-        self.rms = (f64::from(difference.squares) / bands as f64).sqrt();
+        self.rms = (f64::from(of_best.squares) / bands as f64).sqrt();
     }
 }
 

@@ -2,23 +2,24 @@
 
 pub(crate) mod book;
 pub(crate) mod groups;
+mod palette;
 pub(crate) mod survey;
 
-use std::collections::BTreeMap;
+use std::borrow::Cow;
 
 use documents::Task;
 use pigment::evaluate::Remark;
-use pigment::library::{Input, Pigment, PigmentLibrary};
+use pigment::library::{Input, PigmentLibrary};
 use rayon::prelude::*;
 
-use crate::films::bands::Bands;
-use crate::films::film::usual_pigments;
+use crate::films::bands::{Bands, Ground};
 use crate::films::settings::{MapSettings, ModelError};
 use crate::pixel_maps::{BlockMaps, MapError, Mask};
 use crate::search::Scratch;
 use crate::search::set_fit::SetFit;
 use book::{Book, Folded, OpenBook, Prepared};
 use groups::{Column, ColumnSet, Confusion, PixelResult, column_sets, columns, strength_sd};
+use palette::{LIKE_MEASURED, Palette, UNKNOWN_LEVEL, confusion};
 use survey::{survey, survey_step};
 
 /// Gauss-Newton steps when a trial fits the true pigments.
@@ -59,6 +60,8 @@ pub struct Mapper {
     identity: String,
     left_out: Vec<String>,
     remarks: Vec<Remark>,
+    /// The ground, if it is a column.
+    ground: Option<Ground>,
 }
 
 /// How the sets of pigments of a full search explain one spectrum.
@@ -86,16 +89,29 @@ impl Mapper {
     ) -> Result<Self, MapError> {
         settings.check()?;
         let model_error = settings.model_error_of(library)?;
-        let mut prepared = Prepared::new(library, wavelengths, settings, &model_error)?;
-        if let ModelError::Residuals(residuals) = &model_error {
-            prepared.engine.strength_sd = strength_sd(&prepared, residuals);
-        }
-        let groups = alike(library, wavelengths, (settings, &model_error), &prepared)?;
-        let alike = if settings.group_alike { groups } else { Vec::new() };
+        let Palette { names, left_out, remarks } =
+            Palette::new(library, wavelengths, settings, &model_error)?;
+        let of_palette = MapSettings { palette: names, ground: None, ..settings.clone() };
+        let ground = match settings.ground.clone() {
+            Some(ground) => {
+                shows(&ground, library, wavelengths, (&of_palette, &model_error))?.then_some(ground)
+            }
+            None => None,
+        };
+        let all = with_ground(library, ground.as_ref())?;
+        let column = ground.iter().map(|_| Ground::COLUMN.to_owned());
+        let palette = of_palette.palette.iter().cloned().chain(column).collect();
+        let of_all = MapSettings { palette, ..settings.clone() };
+        let mut prepared = Prepared::new(&all, wavelengths, &of_all, &model_error)?;
+        prepared.engine.strength_sd = strength_sds(&all, &prepared, &model_error)?;
+        let alike = match settings.group_alike {
+            true => confusion(library, wavelengths, &of_palette, &model_error)?.groups(),
+            false => Vec::new(),
+        };
         let columns = columns(
             &prepared.paints,
             &settings.groups,
-            |name: &str| library.find(name).map(|id| library[id].name.clone()),
+            |name: &str| all.find(name).map(|id| all[id].name.clone()),
             &alike,
         )?;
         let names = prepared.paints.names.iter();
@@ -103,12 +119,11 @@ impl Mapper {
             .map(|name| columns.iter().position(|c| c.pigments.contains(name)).unwrap_or(0))
             .collect();
         let identity = identity(library, wavelengths, settings, &model_error);
-        let left_out = left_out(library, settings);
-        let remarks = remarks(library, &left_out, &prepared.paints.names);
-        Ok(Self { prepared, columns, column_of, model_error, identity, left_out, remarks })
+        Ok(Self { prepared, columns, column_of, model_error, identity, left_out, remarks, ground })
     }
 
-    /// Names of the pigments that take no part because K and S of them were not measured.
+    /// Names of the pigments that take no part: those guessed from a colour, and masstones that look
+    /// like a measured pigment.
     #[must_use]
     pub fn left_out(&self) -> &[String] {
         &self.left_out
@@ -121,7 +136,16 @@ impl Mapper {
         &self.remarks
     }
 
-    /// Columns of the maps: pigments, and groups of pigments that we map as one.
+    /// `library` with the ground of the settings as its last pigment.
+    pub(crate) fn with_ground<'a>(
+        &self,
+        library: &'a PigmentLibrary,
+    ) -> Result<Cow<'a, PigmentLibrary>, MapError> {
+        with_ground(library, self.ground.as_ref())
+    }
+
+    /// Columns of the maps: pigments, and groups of pigments that we map as one. If you know the ground,
+    /// and it looks like no pigment, it is a column too.
     #[must_use]
     pub fn columns(&self) -> &[Column] {
         &self.columns
@@ -289,7 +313,7 @@ impl Mapper {
         };
         let mut scratch = Scratch::new(&engine.films);
         engine.search(&folded.pixel, engine.table.nearest(&folded.projected), &mut scratch);
-        result.sum(engine, &folded.pixel, &scratch.found, &self.column_of);
+        result.sum(engine, &scratch, &self.column_of);
         let mask = if result.chi2 > OUT_OF_GAMUT { Mask::OutOfGamut } else { Mask::Mapped };
         let sets = column_sets(&scratch.found, &self.column_of, engine);
         let best = scratch.found.first().map_or_else(Vec::new, |best| self.named(best));
@@ -331,7 +355,7 @@ impl Mapper {
                 let set = SetFit::of_parts(&parts)?;
                 let nearest = engine.table.nearest(&folded.projected);
                 engine.search(&folded.pixel, nearest, scratch);
-                let truth = engine.refined(&folded.pixel, set, TRUTH_STEPS);
+                let (truth, _) = engine.refined(&folded.pixel, set, TRUTH_STEPS);
                 let found = scratch.found.first()?;
                 Some(Gap {
                     score: found.score - truth.score,
@@ -368,9 +392,7 @@ impl Mapper {
                         match folded {
                             Ok(folded) => {
                                 find(&folded, scratch);
-                                let pixel = &folded.pixel;
-                                let found = &scratch.found;
-                                result.sum(engine, pixel, found, &self.column_of);
+                                result.sum(engine, scratch, &self.column_of);
                                 if result.chi2 > OUT_OF_GAMUT {
                                     maps.push_masked(Mask::OutOfGamut, result.chi2, result.rms);
                                 } else {
@@ -399,54 +421,53 @@ impl Mapper {
     }
 }
 
-/// Pigments of `library` that take no part because K and S of them were not measured, if the settings name no
-/// palette.
-fn left_out(library: &PigmentLibrary, settings: &MapSettings) -> Vec<String> {
-    let usual = usual_pigments(library);
-    let others = library.ids().filter(|id| settings.palette.is_empty() && !usual.contains(id));
-    others.map(|id| library[id].name.clone()).collect()
+/// Whether the ground looks like none of the pigments of `settings`, so that it may be a column of its own.
+fn shows(
+    ground: &Ground,
+    library: &PigmentLibrary,
+    wavelengths: &[f64],
+    (settings, model_error): (&MapSettings, &ModelError),
+) -> Result<bool, MapError> {
+    let all = ground.among(library)?;
+    let column = std::iter::once(Ground::COLUMN.to_owned());
+    let palette: Vec<String> = settings.palette.iter().cloned().chain(column).collect();
+    let last = palette.len() - 1;
+    if palette.len() > BlockMaps::MOST_PIGMENTS {
+        return Ok(false);
+    }
+    let settings = MapSettings { palette, ..settings.clone() };
+    let confusion = confusion(&all, wavelengths, &settings, model_error)?;
+    Ok((0..last).all(|pigment| confusion.of(last, pigment) < LIKE_MEASURED))
 }
 
-/// Why K and S of a pigment are not known, and how you measure them.
-fn why_unknown(pigment: &Pigment) -> Option<(&'static str, &'static str)> {
-    match (pigment.guessed, pigment.identified) {
-        (true, _) => Some(("guessed from a colour, not measured", "measure them and fit again")),
-        (_, false) => Some((
-            "measured as masstones only, so that S is not known",
-            "measure mixtures of them, for example with white, and fit again",
-        )),
-        (false, true) => None,
-    }
+/// The library of a map: with the ground as its last pigment if it is a column.
+pub(crate) fn with_ground<'a>(
+    library: &'a PigmentLibrary,
+    ground: Option<&Ground>,
+) -> Result<Cow<'a, PigmentLibrary>, MapError> {
+    Ok(match ground {
+        Some(ground) => Cow::Owned(ground.among(library)?),
+        None => Cow::Borrowed(library),
+    })
 }
 
-/// Remarks on pigments with an unknown S: those in `left_out`, and those among the `names` that take part.
-fn remarks(library: &PigmentLibrary, left_out: &[String], names: &[String]) -> Vec<Remark> {
-    let all = library.ids().count();
-    let mut remarks = Vec::new();
-    for (listed, takes_part) in [(left_out, false), (names, true)] {
-        let mut by_reason: BTreeMap<(&str, &str), Vec<&str>> = BTreeMap::new();
-        for pigment in library.ids().map(|id| &library[id]).filter(|p| listed.contains(&p.name)) {
-            if let Some(reason) = why_unknown(pigment) {
-                by_reason.entry(reason).or_default().push(&pigment.name);
-            }
-        }
-        for ((why, way_out), found) in by_reason {
-            let count = found.len();
-            let found = found.join(", ");
-            remarks.push(match takes_part {
-                true => Remark::warning(format!("shares of {found} mean little ({why})"))
-                    .with_hint(way_out),
-                false => Remark::note(format!(
-                    "{count} of {} no part, so that others stand in for them: {found} ({why})",
-                    documents::counted_as(all, "pigment takes", "pigments take")
-                ))
-                .with_hint(format!(
-                    "{way_out}; if you name one with [palette], it takes part with an assumed S"
-                )),
-            });
-        }
-    }
-    remarks
+/// Standard deviation of the logarithm of each paint's strength: that of the left-out mixtures, and at
+/// least [`UNKNOWN_LEVEL`] where S is not known.
+fn strength_sds(
+    library: &PigmentLibrary,
+    prepared: &Prepared,
+    model_error: &ModelError,
+) -> Result<Vec<f64>, MapError> {
+    let measured = match model_error {
+        ModelError::Residuals(residuals) => strength_sd(prepared, residuals),
+        ModelError::Stated(_) => 0.0,
+    };
+    let names = prepared.paints.names.iter();
+    let of_paint = names.map(|name| {
+        let is_known = library[library.find(name)?].identified;
+        Ok(if is_known { measured } else { libm::log(UNKNOWN_LEVEL).max(measured) })
+    });
+    of_paint.collect()
 }
 
 /// How the best set of a search compares with the true pigments of a pixel.
@@ -459,26 +480,6 @@ pub(crate) struct Gap {
     pub(crate) chi2: f32,
     /// Whether the search found the true columns.
     pub(crate) is_right: bool,
-}
-
-/// Groups of pigments that are alike within twice the stated error of the library, or within the
-/// errors of left-out mixtures. If we used the stated error once, we would often take a measured
-/// oil for another of its kind.
-fn alike(
-    library: &PigmentLibrary,
-    wavelengths: &[f64],
-    (settings, model_error): (&MapSettings, &ModelError),
-    prepared: &Prepared,
-) -> Result<Vec<Vec<usize>>, MapError> {
-    let stated = match model_error {
-        ModelError::Residuals(_) => {
-            return Ok(Confusion::new(&prepared.engine, &prepared.paints).groups());
-        }
-        ModelError::Stated(relative) => *relative,
-    };
-    let twice = ModelError::Stated((2.0 * stated).min(1.0));
-    let twice = Prepared::new(library, wavelengths, settings, &twice)?;
-    Ok(Confusion::new(&twice.engine, &twice.paints).groups())
 }
 
 /// SHA-256 of everything that a map depends on besides the pixels.

@@ -9,7 +9,7 @@ mod triples;
 
 use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
 
-use crate::films::film::{Films, Paints, Pixel, Work};
+use crate::films::film::{Difference, Films, Paints, Pixel, Work};
 use crate::films::settings::{Noise, Scale};
 use crate::films::whitening::{Spectrum, WhiteningNoise};
 use set_fit::{Scores, SetFit};
@@ -37,6 +37,9 @@ const FAR: f32 = 30.0;
 /// We skip sets of three if their chi-square exceeds this many times the best of one or two
 /// pigments, plus [`FAR`].
 const WORSE: f64 = 1.5;
+/// Score and key of no set.
+const NOTHING: (f32, u32) = (f32::INFINITY, u32::MAX);
+
 /// Everything that a search needs, except the pixel.
 #[derive(Debug, Clone)]
 pub(crate) struct Engine {
@@ -45,8 +48,8 @@ pub(crate) struct Engine {
     pub(crate) noise: WhiteningNoise,
     pub(crate) at_most: usize,
     pub(crate) scores: Scores,
-    /// Standard deviation of the logarithm of a paint's strength.
-    pub(crate) strength_sd: f64,
+    /// Standard deviation of the logarithm of each paint's strength.
+    pub(crate) strength_sd: Vec<f64>,
 }
 
 /// Memory of a search, reused from pixel to pixel.
@@ -58,8 +61,10 @@ pub(crate) struct Scratch {
     pub(crate) found: Vec<SetFit>,
     by_size: [Vec<SetFit>; 4],
     shortlist: Vec<SetFit>,
-    /// The least score of a refined set so far.
-    least: f32,
+    /// Score and key of the best refined set so far.
+    best: (f32, u32),
+    /// How the pixel differs from the best set.
+    pub(crate) of_best: Difference,
 }
 
 impl Scratch {
@@ -71,8 +76,25 @@ impl Scratch {
             found: Vec::new(),
             by_size: [const { Vec::new() }; 4],
             shortlist: Vec::new(),
-            least: f32::INFINITY,
+            best: NOTHING,
+            of_best: Difference::default(),
         }
+    }
+
+    /// Forgets the sets of the last pixel.
+    pub(crate) fn clear(&mut self) {
+        self.found.clear();
+        self.best = NOTHING;
+    }
+
+    /// Adds a refined set with its score, and how the pixel differs from it.
+    fn add(&mut self, set: SetFit, difference: Difference) {
+        let place = (set.score, set.key());
+        if place < self.best {
+            self.best = place;
+            self.of_best = difference;
+        }
+        self.found.push(set);
     }
 }
 
@@ -86,8 +108,7 @@ impl Engine {
     /// Searches all sets. It starts from the film with the index `place` in the table. You find the
     /// sets in `scratch.found`, the best first.
     pub(crate) fn search(&self, pixel: &Pixel, place: usize, scratch: &mut Scratch) {
-        scratch.found.clear();
-        scratch.least = f32::INFINITY;
+        scratch.clear();
         let (internal, inverse) = self.table.film(place);
         self.films.products(pixel, (internal, inverse), &mut scratch.work);
         self.shortlist(scratch);
@@ -110,49 +131,70 @@ impl Engine {
         for index in 0..scratch.shortlist.len() {
             let key = scratch.shortlist[index].key();
             let near =
-                scratch.shortlist[index].score < scratch.least + FAR * self.scores.steepest();
+                scratch.shortlist[index].score < scratch.best.0 + FAR * self.scores.steepest();
             if near && refined < REFINED[1] && scratch.found.iter().all(|found| found.key() != key)
             {
                 self.add_refined(pixel, index, scratch);
                 refined += 1;
             }
         }
-        self.sort(pixel, &mut scratch.found);
+        self.sort(pixel, scratch);
     }
 
     /// Refines the best set further, then sorts all by score.
-    pub(crate) fn sort(&self, pixel: &Pixel, found: &mut [SetFit]) {
+    pub(crate) fn sort(&self, pixel: &Pixel, scratch: &mut Scratch) {
+        let Scratch { found, best: (_, known), of_best, .. } = scratch;
         found.sort_unstable_by(order);
         let Some(best) = found.first_mut() else { return };
-        let difference = best.refine(&self.films, pixel, STEPS[2]);
-        best.score = self.scores.of_set(best, &difference);
+        if best.key() != *known {
+            *of_best = best.difference(&self.films, pixel);
+        }
+        *of_best = best.refine_from(*of_best, &self.films, pixel, STEPS[2]);
+        best.score = self.scores.of_set(best, of_best);
+        let refined = best.key();
         found.sort_unstable_by(order);
+        if let Some(best) = found.first().filter(|best| best.key() != refined) {
+            *of_best = best.difference(&self.films, pixel);
+        }
     }
 
-    /// Refines a set in measured reflectance by `steps` and computes its score.
-    pub(crate) fn refined(&self, pixel: &Pixel, mut set: SetFit, steps: usize) -> SetFit {
+    /// Refines a set in measured reflectance by `steps`, computes its score and adds it to those
+    /// that `scratch` has found.
+    pub(crate) fn add(&self, pixel: &Pixel, set: SetFit, steps: usize, scratch: &mut Scratch) {
+        let (set, difference) = self.refined(pixel, set, steps);
+        scratch.add(set, difference);
+    }
+
+    /// Refines a set in measured reflectance by `steps`. Returns it with its score, and how the
+    /// pixel differs from it.
+    pub(crate) fn refined(
+        &self,
+        pixel: &Pixel,
+        mut set: SetFit,
+        steps: usize,
+    ) -> (SetFit, Difference) {
         let difference = set.refine(&self.films, pixel, steps);
         set.score = self.scores.of_set(&set, &difference);
-        set
+        (set, difference)
     }
 
     fn add_refined(&self, pixel: &Pixel, index: usize, scratch: &mut Scratch) {
         let mut set = scratch.shortlist[index];
-        let first = set.refine(&self.films, pixel, STEPS[0]);
-        set.score = self.scores.of_set(&set, &first);
-        if set.score < scratch.least + HOPELESS * self.scores.steepest() {
-            let second = set.refine_from(first, &self.films, pixel, STEPS[1]);
-            set.score = self.scores.of_set(&set, &second);
+        let mut difference = set.refine(&self.films, pixel, STEPS[0]);
+        set.score = self.scores.of_set(&set, &difference);
+        if set.score < scratch.best.0 + HOPELESS * self.scores.steepest() {
+            difference = set.refine_from(difference, &self.films, pixel, STEPS[1]);
+            set.score = self.scores.of_set(&set, &difference);
         }
-        scratch.least = scratch.least.min(set.score);
-        scratch.found.push(set);
+        scratch.add(set, difference);
     }
 
     /// Finds the best sets of the linearised problem and leaves them in `scratch.shortlist`, the
     /// best first. This leaves out sets far above the best refined score, or in the beginning far
     /// above the best of these sets.
     fn shortlist(&self, scratch: &mut Scratch) {
-        let Scratch { work, quadratic, marks, by_size, shortlist, least, .. } = scratch;
+        let Scratch { work, quadratic, marks, by_size, shortlist, best: (refined, _), .. } =
+            scratch;
         let count = self.films.pigments;
         quadratic.read(work);
         by_size.iter_mut().for_each(Vec::clear);
@@ -201,7 +243,7 @@ impl Engine {
             shortlist.push(SetFit { score, ..*set });
         }
         let best = shortlist.iter().map(|set| set.score).fold(f32::INFINITY, f32::min);
-        let best = if least.is_finite() { *least } else { best };
+        let best = if refined.is_finite() { *refined } else { best };
         let far = best + FAR * self.scores.steepest();
         shortlist.retain(|set| set.score < far);
         shortlist.sort_unstable_by(|a: &SetFit, b: &SetFit| {
@@ -519,7 +561,8 @@ mod tests {
         let table = Table::new(&paints, &films, &noise);
         let scores = Scores::new(paints.count(), 2.0, noise.evidence);
         let noise = WhiteningNoise::new(&noise);
-        (Engine { films, table, noise, at_most, scores, strength_sd: 0.0 }, paints)
+        let strength_sd = vec![0.0; paints.count()];
+        (Engine { films, table, noise, at_most, scores, strength_sd }, paints)
     }
 
     fn found(engine: &Engine, paints: &Paints, truth: &[(usize, f64)]) -> Vec<SetFit> {

@@ -11,6 +11,10 @@
 use crate::films::film::{Difference, Films, MOST_IN_SET, Pixel};
 use crate::films::settings::Evidence;
 
+/// We do not refine a set further if a step saves less chi-square than this. It changes the weight
+/// of a set by 1 % at most.
+const CONVERGED: f64 = 0.02;
+
 /// A set of one to four pigments with shares that fit a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct SetFit {
@@ -95,7 +99,8 @@ impl SetFit {
         self.refine_from(found, films, pixel, steps)
     }
 
-    /// Like [`SetFit::refine`], but you pass the difference at these shares as `found`.
+    /// Like [`SetFit::refine`], but you pass the difference at these shares as `found`. This stops
+    /// before a step that would save less than [`CONVERGED`].
     pub(crate) fn refine_from(
         &mut self,
         mut found: Difference,
@@ -107,15 +112,18 @@ impl SetFit {
         if self.count == 1 {
             return found;
         }
-        let mut tried = self.stepped(&found);
+        let (mut tried, mut saved) = self.stepped(&found);
         for step in 1..=steps {
+            if saved < CONVERGED {
+                break;
+            }
             let difference = tried.difference(films, pixel);
             if difference.chi2 < self.chi2 {
                 self.shares = tried.shares;
                 self.chi2 = difference.chi2;
                 found = difference;
                 if step < steps {
-                    tried = self.stepped(&found);
+                    (tried, saved) = self.stepped(&found);
                 }
             } else {
                 // The step was too long.
@@ -127,24 +135,27 @@ impl SetFit {
         found
     }
 
-    /// Copy with the shares after one full Gauss-Newton step. We let a share fall to a tenth at
-    /// most, so that the step stays on the simplex.
-    fn stepped(&self, difference: &Difference) -> Self {
+    /// Copy with the shares after one full Gauss-Newton step, and how much chi-square this saves if
+    /// the reflectance is linear. We let a share fall to a tenth at most, so that the step stays on
+    /// the simplex.
+    fn stepped(&self, difference: &Difference) -> (Self, f64) {
         let mut next = *self;
         let step = match inverse(difference, self.len()) {
             Some((inverse, _)) => product(&inverse, &difference.right, self.len()),
             None => [0.0; MOST_IN_SET],
         };
         let mut sum = 0.0;
+        let mut saved = 0.0;
         for i in 0..self.len() {
             let share = self.shares[i];
             next.shares[i] = (share + step[i] as f32).max(0.1 * share).max(1e-7);
             sum += next.shares[i];
+            saved += step[i] * f64::from(difference.right[i]);
         }
         for share in &mut next.shares[..self.len()] {
             *share /= sum;
         }
-        next
+        (next, saved)
     }
 
     /// Variances and covariances of the shares, from the curvature of chi-square on the simplex.
@@ -166,22 +177,39 @@ impl SetFit {
     }
 }
 
-/// Variance of a share that may be anything from 0 to 1.
-const FREE_SHARE: f64 = 1.0 / 12.0;
-
 impl Difference {
     /// -2 ln of the fraction of all possible shares of `count` pigments that agree with the pixel.
     /// This is the price of a set with exact shares. We multiply the variances that follow from the
     /// curvature by `excess`.
+    ///
+    /// All shares of sum 1 are equally likely beforehand (Dirichlet with parameters of 1). With m
+    /// pigments, the covariance of all shares but the last is (I - J / m) / (m (m + 1)), where J
+    /// holds ones, and its square root is (I - t J) / sqrt(m (m + 1)) with t = (1 - 1 / sqrt(m)) / (m - 1).
     pub(crate) fn exactness(&self, count: usize, excess: f64) -> f64 {
+        if count == 1 {
+            return 0.0;
+        }
         let last = count - 1;
-        let mut left = [[0.0; MOST_IN_SET]; MOST_IN_SET];
         let normal = self.normal.map(|row| row.map(f64::from));
+        let mut along = [[0.0; MOST_IN_SET]; MOST_IN_SET];
+        let mut sums = [0.0; MOST_IN_SET];
+        let mut all = 0.0;
         for i in 0..last {
             for j in 0..last {
-                let along = normal[i][j] - normal[i][last] - normal[j][last] + normal[last][last];
-                left[i][j] = FREE_SHARE * along / excess + if i == j { 1.0 } else { 0.0 };
+                along[i][j] = normal[i][j] - normal[i][last] - normal[j][last] + normal[last][last];
+                sums[i] += along[i][j];
             }
+            all += sums[i];
+        }
+        let pigments = count as f64;
+        let t = (1.0 - 1.0 / pigments.sqrt()) / (pigments - 1.0);
+        let variance = 1.0 / (pigments * (pigments + 1.0) * excess);
+        let mut left = [[0.0; MOST_IN_SET]; MOST_IN_SET];
+        for i in 0..last {
+            for j in 0..last {
+                left[i][j] = variance * (along[i][j] - t * (sums[i] + sums[j]) + t * t * all);
+            }
+            left[i][i] += 1.0;
         }
         let mut determinant = 1.0;
         for pivot in 0..last {

@@ -10,6 +10,7 @@ use documents::file::{FileAction, FileError};
 use serde_json::{Map, Value, json};
 
 use crate::accuracy::{ScoreSums, Scores, Trial, covered, tone};
+use crate::films::bands::Ground;
 use crate::numbers::ByteOrder;
 use crate::pixel_maps::Mask;
 use crate::store::{GROUP, StoredMaps, entries, names, text, write};
@@ -121,6 +122,7 @@ pub fn compare(maps: &StoredMaps, truth: &Truth, least: f64) -> Result<Compariso
         });
     }
     let columns_of = columns_of(maps, truth);
+    let ground = maps.pigments().iter().position(|column| column == Ground::COLUMN);
     let count = maps.pigments().len() + 1;
     let mut kinds = KINDS.map(|_| Sums::default());
     let mut pigments = vec![[0.0; 3]; count];
@@ -142,7 +144,7 @@ pub fn compare(maps: &StoredMaps, truth: &Truth, least: f64) -> Result<Compariso
                 shares[column] += f64::from(*share);
             }
             let is_mapped = told.mask[index] == Mask::Mapped;
-            let trial = trial(&told, index, shares, least);
+            let trial = trial(&told, index, shares, (least, ground));
             let (shares, within) = covered(&trial);
             for (sums, (_, classes, of_tone)) in kinds.iter_mut().zip(KINDS) {
                 if !classes.contains(&class) || of_tone.is_some_and(|own| own != tone) {
@@ -190,15 +192,22 @@ fn columns_of(maps: &StoredMaps, truth: &Truth) -> Vec<usize> {
     columns.collect()
 }
 
-/// The trial of a pixel, with a last column for pigments that the maps do not know.
+/// The trial of a pixel, with a last column for pigments that the maps do not know. Shares of the maps count
+/// as parts of the paint, without the ground.
 fn trial(
     maps: &crate::pixel_maps::BlockMaps,
     index: usize,
     mut shares: Vec<f64>,
-    least: f64,
+    (least, ground): (f64, Option<usize>),
 ) -> Trial {
     let unknown = shares.pop().unwrap_or(0.0);
     let mut trial = Trial { least, ..Trial::of_map(maps, index, &shares) };
+    if let Some(ground) = ground {
+        let paint = (1.0 - std::mem::take(&mut trial.told[ground])).max(1e-6);
+        trial.told.iter_mut().for_each(|share| *share /= paint);
+        trial.sd.iter_mut().for_each(|sd| *sd /= paint);
+        trial.present[ground] = false;
+    }
     trial.truth.push(unknown);
     trial.told.push(0.0);
     trial.present.push(false);

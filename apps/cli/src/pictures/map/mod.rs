@@ -32,7 +32,7 @@ const STEPS: usize = 1000;
 /// Map the pigments of a library in a spectral scan
 ///
 /// For every pixel you learn which pigments are there, their shares with standard deviations, and how
-/// sure that is. We assume that the paint hides its ground and mixes by two-constant Kubelka-Munk. About
+/// sure that is. We assume that the paint hides its ground, unless you name it, and mixes by two-constant Kubelka-Munk. About
 /// 20,000 pixels are compared with all sets of pigments (the survey). All other pixels start from the
 /// surveyed pixels most like them. Pigments that the bands of the scan cannot tell apart are mapped as
 /// one. The maps are a Zarr group that xarray opens. --resume continues a run that was interrupted. Tested
