@@ -25,11 +25,13 @@ use replace_in_memory as temporary;
 
 mod signals;
 mod whole;
+mod named;
 mod output;
 
 #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
 mod pieces;
 
+pub use named::{NamedFileError, NamedFiles, Outside};
 pub use output::{
     Output, OutputError, OutputFolder, create_folder, is_stream, refuse_same, split_file_and_sheet,
 };

@@ -7,7 +7,7 @@ use documents::hint::Explain;
 use documents::text::{Source, TextError, read_text};
 use glam::camera::rh::proj::directx::{perspective, perspective_infinite};
 use glam::camera::rh::view::look_at_mat4;
-use glam::{Mat4, Vec2, Vec3};
+use glam::{DVec3, Mat4, Vec2, Vec3};
 use rayon::prelude::*;
 use serde::Deserialize;
 
@@ -364,9 +364,9 @@ pub struct CameraPath {
 #[serde(deny_unknown_fields)]
 pub struct Keyframe {
     /// Position of the eye.
-    pub eye: [f32; 3],
+    pub eye: [f64; 3],
     /// Point that appears in the centre of the picture.
-    pub target: [f32; 3],
+    pub target: [f64; 3],
     /// Approximate up direction, +y by default.
     #[serde(default = "upwards")]
     pub up: [f32; 3],
@@ -388,17 +388,18 @@ impl Keyframe {
     #[must_use]
     pub fn fault(&self) -> Option<(&'static str, String)> {
         let Self { eye, target, up, field_of_view_deg } = *self;
-        for (key, value) in [("eye", eye), ("target", target), ("up", up)] {
-            if value.iter().any(|number| !number.is_finite()) {
+        for (key, value) in [("eye", eye), ("target", target), ("up", up.map(f64::from))] {
+            if value.iter().any(|number| !(*number as f32).is_finite()) {
                 return Some((key, format!("`{value:?}` is not finite")));
             }
         }
-        let [eye, target, up] = [eye, target, up].map(Vec3::from);
+        let up = Vec3::from(up);
+        let [eye, target] = [eye, target].map(DVec3::from);
         if !(0.1..=170.0).contains(&field_of_view_deg) {
             let reason = format!("`{field_of_view_deg}` is not from 0.1 to 170 degrees");
             return Some(("field_of_view_deg", reason));
         }
-        let Some(forward) = (target - eye).try_normalize() else {
+        let Some(forward) = (target - eye).as_vec3().try_normalize() else {
             return Some(("target", format!("`{target}` is where the eye is")));
         };
         if !up.try_normalize().is_some_and(|up| up.cross(forward).length() > LEAST_SINE) {
@@ -450,6 +451,18 @@ impl CameraPath {
         }
     }
 
+    /// Moves the path into the coordinates of a model that was moved. `origin` is the place of the
+    /// model's origin in the coordinates of this path, see [`crate::mesh::ModelFile`].
+    #[must_use]
+    pub fn relative_to(mut self, origin: [f64; 3]) -> Self {
+        for keyframe in &mut self.keyframes {
+            for place in [&mut keyframe.eye, &mut keyframe.target] {
+                *place = [0, 1, 2].map(|axis| place[axis] - origin[axis]);
+            }
+        }
+        self
+    }
+
     fn fault(&self) -> Option<(String, String)> {
         for (key, count) in [("frames", self.frames), ("keyframe", self.keyframes.len())] {
             if !(1..=MOST_FRAMES).contains(&count) {
@@ -491,21 +504,20 @@ impl CameraPath {
             &self.keyframes[at as usize]
         });
         let [eye, target, up] = [
-            around.map(|at| at.eye.into()),
-            around.map(|at| at.target.into()),
+            around.map(|at| rounded(at.eye)),
+            around.map(|at| rounded(at.target)),
             around.map(|at| at.up.into()),
         ]
         .map(|values| spline(values, share));
         // Interpolated eye and target may coincide, and up may become parallel to the viewing
         // direction. This falls back to the last keyframe.
-        fn last(of: fn(&Keyframe) -> [f32; 3], around: [&Keyframe; 4]) -> Vec3 {
-            Vec3::from(of(around[1]))
-        }
+        let last = around[1];
         let forward = (target - eye).try_normalize();
-        let forward = forward
-            .unwrap_or((last(|at| at.target, around) - last(|at| at.eye, around)).normalize());
+        let forward = forward.unwrap_or_else(|| {
+            (DVec3::from(last.target) - DVec3::from(last.eye)).as_vec3().normalize()
+        });
         let target = if eye == target { eye + forward } else { target };
-        let up = [up, last(|at| at.up, around), Vec3::Y]
+        let up = [up, last.up.into(), Vec3::Y]
             .into_iter()
             .find(|up: &Vec3| up.normalize_or_zero().cross(forward).length() > LEAST_SINE)
             .unwrap_or(Vec3::Z);
@@ -525,6 +537,11 @@ impl CameraPath {
             far,
         }
     }
+}
+
+/// A place in 32-bit numbers.
+fn rounded(place: [f64; 3]) -> Vec3 {
+    DVec3::from(place).as_vec3()
 }
 
 fn spline([a, b, c, d]: [Vec3; 4], share: f32) -> Vec3 {

@@ -7,7 +7,11 @@ use artmap::{
     painted::{PaintedSettings, Style, SwatchPainter},
     synthesis::SynthesisSettings,
 };
-use documents::{Task, text::is_toml};
+use documents::{
+    Task,
+    file::{NamedFiles, Outside},
+    text::is_toml,
+};
 use paint::technique::Technique;
 use painterly::{Brushwork, Region, RegionArea, Regions};
 
@@ -31,7 +35,50 @@ struct Chosen<'a> {
     of_material: Vec<(&'a str, &'a str)>,
 }
 
+/// The regions of a subject, and the maps that their file names.
+#[derive(Debug, Default)]
+pub(crate) struct OpenRegions {
+    regions: Regions,
+    /// Maps by their names in the file. A style has no file.
+    maps: Vec<(String, PathBuf)>,
+    labels: Vec<PathBuf>,
+}
+
+impl OpenRegions {
+    /// Files that the file of regions names.
+    pub(crate) fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        self.labels.iter().chain(self.maps.iter().map(|(_, file)| file))
+    }
+}
+
 impl PainterlyRequest {
+    /// Reads the file of regions, if there is one, and finds the files that it names. The name of a map is a file
+    /// beside the file of regions, or else a path as in the request, or else a style.
+    pub(crate) fn open_regions(&self, outside: Outside) -> Result<OpenRegions, PictureError> {
+        let Some(path) = &self.regions else {
+            let regions = Regions { name: OF_KEY.to_owned(), ..Regions::default() };
+            return Ok(OpenRegions { regions, ..OpenRegions::default() });
+        };
+        let mut files = NamedFiles::of(path, outside);
+        let regions = Regions::open(path, &mut files)?;
+        let labels = files.found().to_vec();
+        let mut maps = Vec::new();
+        let folder = path.parent().unwrap_or(Path::new(""));
+        for name in regions.list.iter().filter_map(|region| region.map.as_deref()) {
+            let own = Path::new(name);
+            let found = match (folder.join(name).exists(), own.exists()) {
+                (true, _) => files.find("map", name)?,
+                (false, true) => {
+                    let whole = std::path::absolute(own).unwrap_or_else(|_| own.to_owned());
+                    files.find("map", &whole.to_string_lossy())?
+                }
+                _ => continue,
+            };
+            maps.push((name.to_owned(), found));
+        }
+        Ok(OpenRegions { regions, maps, labels })
+    }
+
     /// Files that the maps are made from.
     pub(crate) fn map_files(&self) -> Vec<PathBuf> {
         let style = self.style.iter().filter(|style| is_toml(Path::new(style))).cloned();
@@ -39,14 +86,16 @@ impl PainterlyRequest {
         maps.chain(style).map(PathBuf::from).chain(self.regions.clone()).collect()
     }
 
-    /// Reads the maps and regions. If the request names no map, this makes one of its style or,
-    /// without a style, of the style `usual`.
-    pub(crate) fn maps(&self, usual: &str, task: &Task) -> Result<Maps, PictureError> {
+    /// Reads the maps. If the request names no map, this makes one of its style or, without a style, of the style
+    /// `usual`.
+    pub(crate) fn maps(
+        &self,
+        open: OpenRegions,
+        usual: &str,
+        task: &Task,
+    ) -> Result<Maps, PictureError> {
         let chosen = self.chosen()?;
-        let mut regions = match &self.regions {
-            Some(path) => Regions::open(path)?,
-            None => Regions { name: OF_KEY.to_owned(), ..Regions::default() },
-        };
+        let OpenRegions { mut regions, maps, .. } = open;
         for (material, file) in chosen.of_material {
             let area = RegionArea::Material(material.to_owned());
             let region = Region::new(&format!("{OF_KEY} {material}"), area);
@@ -59,22 +108,11 @@ impl PainterlyRequest {
         let mut named = vec![(String::new(), base)];
         for name in regions.list.iter().filter_map(|region| region.map.as_deref()) {
             if named.iter().all(|(other, _)| other != name) {
-                named.push((name.to_owned(), self.map_of_region(name, task)?));
+                let file = maps.iter().find(|(other, _)| other == name).map(|(_, file)| file);
+                named.push((name.to_owned(), map_of_region(name, file, task)?));
             }
         }
         Ok(Maps { named, regions })
-    }
-
-    /// The map that a region names. `name` is a file beside the file of regions, or else a path as
-    /// in the request, or else a style.
-    fn map_of_region(&self, name: &str, task: &Task) -> Result<ArtMap, PictureError> {
-        let folder = self.regions.as_deref().and_then(Path::parent);
-        let beside = folder.map(|folder| folder.join(name)).filter(|path| path.exists());
-        let path = beside.unwrap_or_else(|| PathBuf::from(name));
-        match !path.exists() && Style::named(name).is_ok() {
-            true => styled(name, task),
-            false => Ok(ArtMap::open(&path)?),
-        }
     }
 
     fn chosen(&self) -> Result<Chosen<'_>, SettingError> {
@@ -110,6 +148,15 @@ pub fn style_of(named: &Path) -> Result<(Style, Option<PathBuf>), PictureError> 
         return Ok((Style::open(named)?, Some(named.to_owned())));
     }
     Ok((Style::named(&named.to_string_lossy())?, None))
+}
+
+/// The map that a region names: its `file`, or else a path of the request, or else a style.
+fn map_of_region(name: &str, file: Option<&PathBuf>, task: &Task) -> Result<ArtMap, PictureError> {
+    let path = file.map_or(Path::new(name), PathBuf::as_path);
+    match !path.exists() && Style::named(name).is_ok() {
+        true => styled(name, task),
+        false => Ok(ArtMap::open(path)?),
+    }
 }
 
 /// A map of samples painted in a style.

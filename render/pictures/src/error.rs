@@ -15,7 +15,7 @@ use calibrate::{
 };
 use documents::{
     Cancelled,
-    file::{FileError, OutputError},
+    file::{FileError, NamedFileError, OutputError},
     hint::{Explain, Fault, Hint},
     request::RequestError,
     settings::SettingsError,
@@ -188,6 +188,9 @@ pub enum PictureError {
     /// A file cannot be read or written.
     #[error(transparent)]
     File(#[from] FileError),
+    /// A file names another file that cannot be read, or that it must not name.
+    #[error(transparent)]
+    Named(#[from] NamedFileError),
     /// An output cannot be written, or would replace a file that must stay.
     #[error(transparent)]
     Output(#[from] OutputError),

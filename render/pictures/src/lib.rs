@@ -90,6 +90,7 @@ pub use request::{
 pub use script::{PlayedSession, ScriptJob, ScriptOutcome, ScriptRequest};
 pub use style::{StyleRequest, listed, name_in_recipe, palette, pigment_names, toml_of_change};
 pub use subject::{
-    FARTHEST_DEG, LEAST_PX, MOST_FRAMES, MOST_PX, PictureViews, Subject, ViewRequest, picture_turns,
+    FARTHEST_DEG, LEAST_PX, MOST_FRAMES, MOST_PX, OpenSubject, PictureViews, Subject, ViewRequest,
+    picture_turns,
 };
 pub use timelapse::{TimelapseOutcome, TimelapseRequest};

@@ -31,7 +31,7 @@ use crate::error::{PictureError, SettingError};
 use crate::exports::{FrameFolder, Listener, PX_MM};
 use crate::request::{OpenOutputs, PainterlyRequest, PictureRequest, Summary, TechniqueOutcome};
 use crate::style::{canvas_of, library_of, palette};
-use crate::subject::{self, MOST_FRAMES, PictureViews, check_range};
+use crate::subject::{self, MOST_FRAMES, OpenSubject, PictureViews, check_range};
 
 /// A subject with brushwork, materials and outputs that were checked.
 #[derive(Debug)]
@@ -84,8 +84,12 @@ impl PainterlyJob {
             Some(_) => PictureViews::Turned,
             None => PictureViews::Front,
         };
-        let (subject, mut inputs) = request.view.subject(&request.subject, views)?;
+        let OpenSubject { subject, mut inputs, .. } =
+            request.view.subject(&request.subject, views)?;
+        let regions = own.open_regions(request.view.outside())?;
         inputs.extend(own.map_files());
+        inputs.extend(regions.files().cloned());
+        inputs.extend(request.pigments.measured_files(None));
         inputs.extend(own.directions.iter().chain(&own.depth).cloned());
         inputs.extend(request.style.settings.iter().chain(&request.pigments.library).cloned());
         let scene = scene(subject, request, own, &settings)?;
@@ -96,7 +100,7 @@ impl PainterlyJob {
             .map(|folder| FrameFolder::open(folder, "exr", scene.cameras.len(), &inputs))
             .transpose()?;
         let preset = request.style.preset::<Painter>()?.unwrap_or(Preset::Impressionist);
-        let maps = own.maps(preset.style(), task)?;
+        let maps = own.maps(regions, preset.style(), task)?;
         Ok(Self { settings, scene, maps, painting, outputs, exr_frames })
     }
 

@@ -14,7 +14,7 @@ use volumes::painter::Show;
 use crate::animation::{Animation, AnimationRequest};
 use crate::error::{PictureError, SettingError};
 use crate::exports::{ExportRequest, OpenExports, StageFolder};
-use crate::style::StyleRequest;
+use crate::style::{StyleRequest, file_in};
 use crate::subject::ViewRequest;
 
 /// A picture to paint: its subject, a technique, and the files that are written. [`Self::run`] paints it.
@@ -367,6 +367,11 @@ pub struct PigmentRequest {
 }
 
 impl PigmentRequest {
+    /// Files of spectra that this request and `over` name: lamps and grounds.
+    pub(crate) fn measured_files(&self, over: Option<&str>) -> Vec<PathBuf> {
+        [self.illuminant.as_deref(), over].into_iter().flatten().filter_map(file_in).collect()
+    }
+
     /// The light if the request names none.
     pub(crate) const USUAL_LIGHT: &'static str = "D65";
 

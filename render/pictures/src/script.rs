@@ -11,7 +11,7 @@ use std::{
 use calibrate::{Remark, library::PigmentLibrary};
 use documents::{
     Task,
-    file::{self, Output, OutputFolder, create_folder},
+    file::{self, NamedFiles, Output, OutputFolder, Outside, create_folder},
 };
 use graphics::{
     export::{PictureFormat, picture_file},
@@ -82,6 +82,10 @@ pub struct ScriptRequest {
     /// Library for a script that names no library [default: the Van Gogh oils that ship]
     #[serde(default)]
     pub default_library: Option<PathBuf>,
+    /// Let the script name the painting that it continues, and pictures of grounds, outside of its own folder.
+    /// Without this, these files must lie in that folder or below
+    #[serde(default)]
+    pub allow_outside: bool,
     /// Files of the painting
     #[serde(default)]
     pub exports: ExportRequest,
@@ -104,6 +108,7 @@ impl ScriptRequest {
             script: script.into(),
             library: None,
             default_library: None,
+            allow_outside: false,
             exports: ExportRequest::default(),
             timelapse: TimelapseRequest::default(),
             undo_memory: undo_memory(),
@@ -155,17 +160,19 @@ impl ScriptRequest {
         let mut script = StrokeScript::from_json(&name, &bytes)?;
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         let folder = folder.unwrap_or(Path::new(".")).to_owned();
-        let start = self.start(&script, &folder)?;
+        let mut files = NamedFiles::of(path, Outside::allowed_if(self.allow_outside));
+        let start = self.start(&script, &mut files)?;
         let library = match &start {
-            Some((_, start, _)) => start.library.clone(),
+            Some((start, _)) => start.library.clone(),
             None => self.library_of(&script, &folder, &mut |note| written.pass(note, listener))?,
         };
         script.resolve(&library)?;
         let saves = script.actions.iter().any(|action| matches!(action, Action::Save { .. }));
         let mut inputs = vec![path.clone()];
         inputs.extend(self.library.clone());
-        inputs.extend(script.complete_picture_paths(&folder));
-        inputs.extend(start.iter().map(|(path, ..)| path.clone()));
+        script.complete_picture_paths(&mut files)?;
+        inputs.extend(files.found().iter().cloned());
+        inputs.extend(script.library.iter().map(|library| folder.join(library)));
         let paints = self.exports.any() || saves;
         let exports = self.exports.clone().open(&inputs)?;
         let timelapse = self.timelapse.open(&inputs, &exports)?;
@@ -177,7 +184,7 @@ impl ScriptRequest {
             timelapse.plan(&script)?;
         }
         check_saves(&script, &folder, &inputs).map_err(|error| error.within(&name))?;
-        let (start, table) = start.map(|(_, start, table)| (start, table)).unzip();
+        let (start, table) = start.unzip();
         let (canvas, palette, brushes) =
             script.surfaces_with_table(&library, start, table.flatten())?;
         let exports = paints.then_some(exports);
@@ -204,18 +211,22 @@ impl ScriptRequest {
 
     /// Opens the painting that the script continues, if there is one, and the table beside it if the
     /// script asks for the table.
-    fn start(&self, script: &StrokeScript, folder: &Path) -> Result<Option<Start>, PictureError> {
+    fn start(
+        &self,
+        script: &StrokeScript,
+        files: &mut NamedFiles,
+    ) -> Result<Option<Start>, PictureError> {
         let Some(start) = &script.start else { return Ok(None) };
         if self.library.is_some() {
             let message = format!("the script continues {start}, which has its own library");
             return Err(SettingError::whole(message, "leave [library] out").into());
         }
-        let path = folder.join(start);
+        let path = files.find("start", start)?;
         let name = path.display().to_string();
         let bytes = file::read(&path)?;
         let document = painting_file::read(&name, &bytes)?;
         let table = if script.table { painting_file::read_table(&name, &bytes)? } else { None };
-        Ok(Some((path, document, table)))
+        Ok(Some((document, table)))
     }
 
     /// The library that the request names, else the one that the script names, else the default one.
@@ -243,8 +254,8 @@ impl ScriptRequest {
     }
 }
 
-/// Path of the painting that a script continues, the painting, and the table beside it.
-type Start = (PathBuf, Document, Option<SideTable>);
+/// The painting that a script continues, and the table beside it.
+type Start = (Document, Option<SideTable>);
 
 /// The canvas on which a script begins, and the palette if the script has one.
 #[derive(Debug, Clone)]

@@ -166,7 +166,7 @@ fn write_separation(
 /// Refuses the keys that only other techniques take.
 fn check_other_keys(request: &PictureRequest) -> Result<(), SettingError> {
     let PictureRequest { view, style, pigments, stages, animation, .. } = request;
-    let ViewRequest { width, height, camera, turntable } = view;
+    let ViewRequest { width, height, camera, turntable, allow_outside: _ } = view;
     let StyleRequest { preset, settings, set } = style;
     let AnimationRequest { animation, frames, rate: _ } = animation;
     let pixels = "give [width_mm] and [cell_mm], and [supersample] for more pixels a cell";

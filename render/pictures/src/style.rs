@@ -15,6 +15,7 @@ use paint::{
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use spectra::instrument::split_file_and_name;
 
 use crate::error::{PictureError, SettingError};
 use crate::exports::{Listener, Note};
@@ -57,6 +58,12 @@ impl StyleRequest {
         }
         Ok(settings)
     }
+}
+
+/// The file of a text that names one, `FILE` or `FILE#NAME`. `None` if there is no such file.
+pub(crate) fn file_in(text: &str) -> Option<PathBuf> {
+    let file = Path::new(split_file_and_name(text).0);
+    file.is_file().then(|| file.to_owned())
 }
 
 /// A change `KEY=VALUE` as a line of TOML. Words need no quotes, and `.5` is a number.

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use documents::{
     did_you_mean,
-    file::{is_standard_input, read},
+    file::{Outside, is_standard_input, read},
 };
 use graphics::{
     camera::{Camera, CameraPath, Framing},
-    mesh::{Mesh, SampleModel},
+    mesh::{Mesh, ModelFile, SampleModel},
     picture::Photograph,
     picture_formats::begins_like_picture,
 };
@@ -49,6 +49,9 @@ pub struct ViewRequest {
     /// Turn the camera around a mesh in this number of frames, 1 to 100000. In front of a picture
     /// that can be turned, the camera swings from side to side
     pub turntable: Option<u64>,
+    /// Let a model, a file of settings and a file of regions name files outside of their own folders. Without this,
+    /// materials, textures, buffers, pictures and maps must lie in the folder of the file that names them, or below
+    pub allow_outside: bool,
 }
 
 /// Cameras from which a picture may be seen.
@@ -71,6 +74,18 @@ pub enum Subject {
     Mesh(Box<Mesh>, Vec<Camera>, (usize, usize)),
 }
 
+/// A subject that was read, with all that its files tell.
+#[derive(Debug)]
+pub struct OpenSubject {
+    /// The model or picture to paint.
+    pub subject: Subject,
+    /// Files that it was read from, also those that a model names.
+    pub inputs: Vec<PathBuf>,
+    /// Place of a mesh's origin in the coordinates of its file. It is 0 unless the model lies far from the origin,
+    /// see [`ModelFile::origin`].
+    pub origin: [f64; 3],
+}
+
 /// Refuses the value of `key` if it lies outside a range.
 pub(crate) fn check_range(
     key: &str,
@@ -87,17 +102,18 @@ pub(crate) fn check_range(
 }
 
 impl ViewRequest {
-    /// Reads the subject at `path`, or makes the model of `shape:NAME`. Returns it with the paths of the files
-    /// that it was read from. `views` says how a picture may be seen.
+    /// Whether files may name other files outside of their own folders.
+    #[must_use]
+    pub fn outside(&self) -> Outside {
+        Outside::allowed_if(self.allow_outside)
+    }
+
+    /// Reads the subject at `path`, or makes the model of `shape:NAME`. `views` says how a picture may be seen.
     ///
     /// # Errors
     /// [`PictureError`] for a subject or a path of the camera that cannot be read, and for a size or camera that
     /// the subject does not take.
-    pub fn subject(
-        &self,
-        path: &Path,
-        views: PictureViews,
-    ) -> Result<(Subject, Vec<PathBuf>), PictureError> {
+    pub fn subject(&self, path: &Path, views: PictureViews) -> Result<OpenSubject, PictureError> {
         check_range("width", self.width, [LEAST_PX, MOST_PX])?;
         check_range("height", self.height, [LEAST_PX, MOST_PX])?;
         check_range("turntable", self.turntable, [1, MOST_FRAMES])?;
@@ -105,10 +121,11 @@ impl ViewRequest {
         let free = views == PictureViews::Free;
         let text = path.to_string_lossy();
         if let Some(name) = text.strip_prefix("shape:") {
-            return self.mesh(shape(name)?.mesh(TRIANGLES), Vec::new());
+            return self.mesh(shape(name)?.mesh(TRIANGLES), [0.0; 3], Vec::new());
         }
         if is_mesh(path)? {
-            return self.mesh(Mesh::open(path)?, vec![path.to_owned()]);
+            let ModelFile { mesh, origin, files } = ModelFile::open(path, self.outside())?;
+            return self.mesh(mesh, origin, [vec![path.to_owned()], files].concat());
         }
         for (key, present) in [
             ("camera", self.camera.is_some() && !turned),
@@ -138,7 +155,8 @@ impl ViewRequest {
             );
             return Err(SettingError::whole(message, "give a smaller [width]").into());
         }
-        Ok((Subject::Photograph(photograph, width), vec![path.to_owned()]))
+        let subject = Subject::Photograph(photograph, width);
+        Ok(OpenSubject { subject, inputs: vec![path.to_owned()], origin: [0.0; 3] })
     }
 
     /// Whether the request chooses the camera.
@@ -151,7 +169,7 @@ impl ViewRequest {
     /// size.
     #[must_use]
     pub fn without_camera(&self) -> Self {
-        Self { width: self.width, height: self.height, ..Self::default() }
+        Self { camera: None, turntable: None, ..self.clone() }
     }
 
     /// The file of keyframes that `camera` names. `None` if it gives degrees or nothing.
@@ -206,8 +224,9 @@ impl ViewRequest {
     fn mesh(
         &self,
         mesh: Mesh,
+        origin: [f64; 3],
         mut inputs: Vec<PathBuf>,
-    ) -> Result<(Subject, Vec<PathBuf>), PictureError> {
+    ) -> Result<OpenSubject, PictureError> {
         let width = self.width.map_or(WIDTH, |width| width as usize);
         let height = self.height.map_or(width * 3 / 4, |height| height as usize).max(1);
         let bounds = mesh.bounds();
@@ -215,7 +234,7 @@ impl ViewRequest {
         let cameras = match self.camera_file()? {
             Some(path) => {
                 inputs.push(path.into());
-                CameraPath::open(path)?.cameras(bounds)
+                CameraPath::open(path)?.relative_to(origin).cameras(bounds)
             }
             None => {
                 let framing = self.framing(aspect)?;
@@ -225,7 +244,8 @@ impl ViewRequest {
                 }
             }
         };
-        Ok((Subject::Mesh(Box::new(mesh), cameras, (width, height)), inputs))
+        let subject = Subject::Mesh(Box::new(mesh), cameras, (width, height));
+        Ok(OpenSubject { subject, inputs, origin })
     }
 
     /// The camera of a mesh that `camera` gives in degrees, for pictures of this aspect.

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use calibrate::{backing_from_text, library::PigmentLibrary};
-use documents::Task;
+use documents::{Task, file::NamedFiles};
 use graphics::{
     camera::Camera,
     compute::Compute,
@@ -25,7 +25,7 @@ use crate::animation::FramesDigest;
 use crate::error::{PictureError, SettingError};
 use crate::exports::{Listener, Note};
 use crate::request::{OpenOutputs, PictureRequest, Summary, TechniqueOutcome, WatercolorRequest};
-use crate::style::palette;
+use crate::style::{StyleRequest, palette};
 use crate::subject::{PictureViews, Subject};
 
 /// A subject with settings, pigments and outputs that were checked.
@@ -52,12 +52,16 @@ impl WatercolorJob {
             return Err(SettingError::whole("nothing would be written", hint).into());
         }
         let settings = request.style.settings::<WatercolorPainter>()?;
-        let pictures = settings.paper.scan.iter().chain(&settings.toon.greys).map(PathBuf::from);
+        let pictures = settings.paper.scan.iter().chain(&settings.toon.greys);
+        let pictures: Vec<PathBuf> = pictures.map(PathBuf::from).collect();
+        check_pictures(&pictures, request)?;
         let mut inputs: Vec<PathBuf> = request.style.settings.iter().cloned().collect();
         inputs.extend(pictures);
         inputs.extend(pigments.library.clone());
-        let (subject, files) = request.view.subject(&request.subject, PictureViews::Front)?;
-        inputs.extend(files);
+        let read = request.view.subject(&request.subject, PictureViews::Front)?;
+        let subject = read.subject;
+        inputs.extend(read.inputs);
+        inputs.extend(pigments.measured_files(own.over.as_deref()));
         inputs.extend(own.dry_brush_mask.iter().chain(&own.density_mask).cloned());
         let still = match &subject {
             Subject::Photograph(..) => true,
@@ -166,6 +170,25 @@ impl WatercolorJob {
             pigments: pigments.collect(),
         })
     }
+}
+
+/// Checks the pictures that the file of settings names. They must be regular files, and lie in its folder or below.
+fn check_pictures(pictures: &[PathBuf], request: &PictureRequest) -> Result<(), PictureError> {
+    let Some(file) = &request.style.settings else { return Ok(()) };
+    // Changes of single settings come from the user, who may name any file.
+    let of_file = StyleRequest { set: Vec::new(), ..request.style.clone() };
+    let named = of_file.settings::<WatercolorPainter>()?;
+    let mut files = NamedFiles::of(file, request.view.outside());
+    for (key, path) in [("paper.scan", named.paper.scan), ("toon.greys", named.toon.greys)] {
+        let Some(path) = path.map(PathBuf::from).filter(|path| pictures.contains(path)) else {
+            continue;
+        };
+        // The path already begins with the folder of the file.
+        let folder = file.parent().unwrap_or(Path::new(""));
+        let named = path.strip_prefix(folder).unwrap_or(&path);
+        files.find(key, &named.to_string_lossy())?;
+    }
+    Ok(())
 }
 
 /// Refuses keys that need pigments if the picture is painted without them.

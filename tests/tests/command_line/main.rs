@@ -5,6 +5,7 @@
 mod artmap;
 mod errors;
 mod matching;
+mod named_files;
 mod painterly;
 mod request_page;
 mod requests;

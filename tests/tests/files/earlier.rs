@@ -10,6 +10,7 @@ use artmap::passages::Marks;
 use artmap::sample::SampleSet;
 use calibrate::Residuals;
 use calibrate::library::PigmentLibrary;
+use documents::file::{NamedFiles, Outside};
 use graphics::camera::CameraPath;
 use graphics::picture::Photograph;
 use maps::Book;
@@ -137,7 +138,9 @@ fn what_users_write_for_painterly_pictures_opens() {
     assert_eq!(marks.samples.len(), 2);
     let guides = Guides::open(&fixture("guides.toml")).unwrap();
     assert_eq!((guides.size_px, guides.lines.len()), ([800, 600], 1));
-    let regions = Regions::open(&fixture("regions.toml")).unwrap();
+    let path = fixture("regions.toml");
+    let mut files = NamedFiles::of(&path, Outside::Refused);
+    let regions = Regions::open(&path, &mut files).unwrap();
     let areas: Vec<_> = regions.list.iter().map(|region| &region.area).collect();
     let wanted = RegionArea::Label([0x3f, 0x7a, 0x20]);
     assert!(matches!(areas[..], [RegionArea::Polygon(_), label] if *label == wanted), "{areas:?}");

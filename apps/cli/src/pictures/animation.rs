@@ -25,6 +25,11 @@ pub(crate) struct SubjectOptions {
     /// turned, the camera swings from side to side
     #[arg(long, value_name = "FRAMES", value_parser = clap::value_parser!(u64).range(1..=MOST_FRAMES))]
     turntable: Option<u64>,
+    /// Let a model, a file of settings and a file of regions name files outside of their own folders.
+    /// Without this, materials, textures, buffers, pictures and maps must lie in the folder of the file
+    /// that names them, or below
+    #[arg(long)]
+    allow_outside: bool,
 }
 
 impl SubjectOptions {
@@ -35,6 +40,7 @@ impl SubjectOptions {
             height: self.height,
             camera: self.camera.clone(),
             turntable: self.turntable,
+            allow_outside: self.allow_outside,
         }
     }
 }

@@ -47,6 +47,9 @@ pub(crate) struct Paint {
     engine: EngineOptions,
     #[command(flatten)]
     exports: Exports,
+    /// Let a script name its start and pictures of grounds outside of its own folder
+    #[arg(long, conflicts_with = "from")]
+    allow_outside: bool,
     /// Print JSON: actions, strokes, substeps, cells, backend, canvas; of a timelapse its frames,
     /// frames_found and size
     #[arg(long)]
@@ -99,6 +102,7 @@ impl Paint {
             script,
             library: self.library.clone(),
             default_library: default_path(),
+            allow_outside: self.allow_outside,
             exports: self.exports.request(),
             timelapse: self.timelapse.request(),
             undo_memory: self.engine.undo_memory(),

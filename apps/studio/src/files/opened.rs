@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use documents::Task;
 use documents::file::disk::File;
-use documents::file::{disk, write_whole};
+use documents::file::{NamedFiles, Outside, disk, write_whole};
 use eframe::egui::{ColorImage, Context, TextureHandle, TextureOptions};
 use graphics::exr_picture::linear_picture;
 use graphics::picture_formats::begins_like_picture;
@@ -204,14 +204,17 @@ fn recording(path: &Path, name: &str, bytes: &[u8]) -> Result<Opened, Problem> {
         remarks.push(Problem::new(text, tr("the built-in oils are used instead")));
     }
     let library = named.library;
+    // The recording is one of the painter's own, so its painting may lie anywhere.
+    let mut files = NamedFiles::of(path, Outside::Allowed);
     if let Some(start) = &mut script.start {
         // We do not resolve the script here, because its pigments come from the painting that it
         // starts from.
-        *start = folder.join(&start).display().to_string();
+        let found = files.find("start", start).map_err(|error| Problem::from_error(&error))?;
+        *start = found.display().to_string();
     } else {
         script.resolve(&library).map_err(|error| Problem::from_error(&error))?;
     }
-    script.complete_picture_paths(&folder);
+    script.complete_picture_paths(&mut files).map_err(|error| Problem::from_error(&error))?;
     Ok(Opened::Recording { script: Box::new(script), library: Box::new(library), remarks })
 }
 

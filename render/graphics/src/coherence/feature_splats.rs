@@ -10,15 +10,16 @@ use crate::gpu::DeviceError;
 
 impl Features {
     /// The features of `noise` to draw in a projection, hidden ones included. Their order does not
-    /// depend on the projection. You pass them to [`draw_splats`].
+    /// depend on the projection. You pass them to [`draw_splats`]. If more than 16 surfaces lie
+    /// behind each other, the finest octaves may be left out.
     #[must_use]
     pub fn splats(&self, projection: &Projection, noise: FeatureNoise) -> Vec<Splat> {
         let octaves = Octaves::new(noise);
         let end = octaves.end();
         let margin_px = octaves.largest_px();
         let in_sight = InSight::new(projection, Density::Screen, end, margin_px);
-        self.selected(&in_sight, |feature, splats| {
-            splats.extend(projected(projection, &octaves, feature).into_iter().flatten());
+        self.selected(in_sight, |feature, end, splats| {
+            splats.extend(projected(projection, &octaves, feature, end).into_iter().flatten());
         })
     }
 
@@ -58,8 +59,8 @@ impl Features {
         let end = octaves.end();
         let margin_px = octaves.largest_px();
         let in_sight = InSight::new(projection, Density::Screen, end, margin_px);
-        self.selected(&in_sight.before(surfaces, &octaves), |feature, splats| {
-            let drawn = projected(projection, &octaves, feature).into_iter().flatten();
+        self.selected(in_sight.before(surfaces, &octaves), |feature, end, splats| {
+            let drawn = projected(projection, &octaves, feature, end).into_iter().flatten();
             splats.extend(drawn.filter(|splat| !splat.is_behind(surfaces)));
         })
     }
@@ -70,11 +71,13 @@ fn sign(feature: &Feature) -> f32 {
     if feature.unit(4) < 0.5 { 1.0 } else { -1.0 }
 }
 
-/// Draws a feature in one octave, or in two while it fades from one to the next.
+/// Draws a feature of a rank below `end` in one octave, or in two while it fades from one to the
+/// next.
 fn projected(
     projection: &Projection,
     octaves: &Octaves,
     feature: &Feature,
+    end: f32,
 ) -> Option<impl Iterator<Item = Splat>> {
     let at = projection.project(feature.position)?;
     let towards = feature.normal.dot(feature.position - projection.camera.eye);
@@ -84,7 +87,7 @@ fn projected(
     let rank = feature.priority / pixels;
     // The comparison is false for features that we see edge-on, because their rank is NaN or
     // infinite.
-    if !(rank < octaves.end() && at.depth <= 1.0) {
+    if !(rank < end && at.depth <= 1.0) {
         return None;
     }
     let [slope_x, slope_y] = projection.slope(feature.normal, towards);
@@ -136,7 +139,8 @@ impl Features {
     /// The features of ranks below `end` that a projection shows, hidden ones included, up to
     /// `margin_px` beyond the edges. With [`Density::Surface`] the margin counts in pixels of that
     /// density. Their order does not depend on the projection. A rank changes continuously with
-    /// the camera.
+    /// the camera. If more than 16 surfaces lie behind each other, features of high ranks may be
+    /// left out, so that the picture and not the model bounds their number.
     #[must_use]
     pub fn seen(
         &self,
@@ -159,7 +163,7 @@ impl Features {
         keep: impl Fn(&SeenFeature) -> bool + Sync,
     ) -> Vec<SeenFeature> {
         let in_sight = InSight::new(projection, density, end, margin_px);
-        self.selected(&in_sight, |feature, seen| {
+        self.selected(in_sight, |feature, end, seen| {
             seen.extend(see(projection, density, feature).filter(|seen| {
                 // This is false for features seen edge-on, because their rank is NaN or infinite.
                 seen.rank < end && seen.depth <= 1.0 && keep(seen)

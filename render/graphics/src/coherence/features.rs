@@ -8,6 +8,7 @@
 //! halves of triangles, made on demand.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -301,17 +302,88 @@ impl Select for Below {
     }
 }
 
+/// A selection ends if it visits more parts of the mesh than its features would fill the picture
+/// this many times. Ordinary models have fewer surfaces behind each other.
+const MOST_LAYERS: f64 = 16.0;
+/// A selection may always visit this many parts of the mesh.
+const FEWEST_VISITS: f64 = (1u64 << 20) as f64;
+/// No selection visits more parts than this in all, or for each pixel. A feature takes 32 to 84
+/// bytes.
+const MOST_VISITS: f64 = (1u64 << 25) as f64;
+const MOST_VISITS_PER_PX: f64 = 4096.0;
+/// Greatest number of parts that [`Features::below`] visits.
+const VISITS_BELOW: usize = 1 << 20;
+/// The end of a selection falls to a quarter, i.e. by one octave of noise, at most this often. That
+/// is enough for 10 million surfaces.
+const MOST_TRIES: usize = 12;
+
 impl Features {
-    /// Applies `draw` to the features that `select` needs, and to a few more. Their order does not
-    /// depend on the selection.
+    /// Applies `draw` to the features that a projection needs, and to a few more. It also gets the
+    /// rank at which they end. Their order does not depend on the projection.
+    ///
+    /// Surfaces may lie behind each other without limit, so this bounds the number of features by
+    /// the picture: if there are too many, the finest ones are left out, by a lower rank of the
+    /// end.
     pub(super) fn selected<T: Send + Copy>(
         &self,
-        select: &impl Select,
-        draw: impl Fn(&Feature, &mut Vec<T>) + Sync,
+        mut in_sight: InSight<'_>,
+        draw: impl Fn(&Feature, f32, &mut Vec<T>) + Sync,
     ) -> Vec<T> {
+        let Projection { width, height, .. } = in_sight.projection;
+        let px = (width * height) as f64;
+        let limit = (MOST_VISITS_PER_PX * px).clamp(FEWEST_VISITS, MOST_VISITS);
+        let once = f64::from(in_sight.end) * px;
+        let most = (MOST_LAYERS * once).clamp(FEWEST_VISITS, limit) as usize;
+        for _ in 0..MOST_TRIES {
+            let end = in_sight.end;
+            let drawn = self.visited(&in_sight, most, |feature, all| draw(feature, end, all));
+            if let Some(drawn) = drawn {
+                return drawn;
+            }
+            in_sight.end = (end / 4.0).min((limit / px) as f32);
+        }
+        Vec::new()
+    }
+
+    /// All features below this priority, in an order that does not depend on it. If the mesh has
+    /// more than about a million of them, you get those below a quarter of the priority, or a
+    /// sixteenth, and so on.
+    #[must_use]
+    pub fn below(&self, priority: f32) -> Vec<Feature> {
+        let mut priority = priority;
+        let area = self.hierarchy.patches.first().map_or(0.0, |whole| whole.area);
+        for _ in 0..MOST_TRIES {
+            let found = self.visited(&Below(priority), VISITS_BELOW, |feature, all| {
+                if feature.priority < priority {
+                    all.push(*feature);
+                }
+            });
+            if let Some(found) = found {
+                return found;
+            }
+            priority = (priority / 4.0).min((VISITS_BELOW as f64 / area) as f32);
+        }
+        Vec::new()
+    }
+
+    /// Applies `draw` to the features that `select` needs, and to a few more. Returns `None` if
+    /// these are more than `most`. This does not depend on threads.
+    fn visited<T: Send + Copy>(
+        &self,
+        select: &impl Select,
+        most: usize,
+        draw: impl Fn(&Feature, &mut Vec<T>) + Sync,
+    ) -> Option<Vec<T>> {
+        let visits = Visits { count: AtomicUsize::new(0), most };
         let subtrees = self.subtrees.par_iter().map(|&subtree| {
             let mut drawn = Vec::new();
-            self.select(select, subtree, &mut |feature| draw(feature, &mut drawn));
+            self.select(select, subtree, &mut |feature| {
+                let goes_on = visits.add();
+                if goes_on {
+                    draw(feature, &mut drawn);
+                }
+                goes_on
+            });
             drawn
         });
         let mut drawn = Vec::new();
@@ -319,22 +391,22 @@ impl Features {
             draw(&self.of_patches[patch], &mut drawn);
         }
         let subtrees: Vec<_> = subtrees.collect();
+        if visits.count.into_inner() > most {
+            return None;
+        }
         drawn.reserve(subtrees.iter().map(Vec::len).sum());
-        subtrees.iter().for_each(|subtree| drawn.extend_from_slice(subtree));
-        drawn
+        // Each list is freed before the next one is copied.
+        subtrees.into_iter().for_each(|subtree| drawn.extend_from_slice(&subtree));
+        Some(drawn)
     }
 
-    /// All features below this priority, in an order that does not depend on it.
-    #[must_use]
-    pub fn below(&self, priority: f32) -> Vec<Feature> {
-        self.selected(&Below(priority), |feature, all| {
-            if feature.priority < priority {
-                all.push(*feature);
-            }
-        })
-    }
-
-    fn select(&self, select: &impl Select, subtree: usize, draw: &mut impl FnMut(&Feature)) {
+    /// Gives the features of a subtree to `draw` until it returns false.
+    fn select(
+        &self,
+        select: &impl Select,
+        subtree: usize,
+        draw: &mut impl FnMut(&Feature) -> bool,
+    ) {
         let end = self.hierarchy.patches[subtree].end;
         let mut index = subtree;
         while index < end {
@@ -344,15 +416,32 @@ impl Features {
                 index = patch.end;
                 continue;
             }
-            draw(&self.of_patches[index]);
+            if !draw(&self.of_patches[index]) {
+                return;
+            }
             if patch.faces.len() == 1 {
                 let face = &self.hierarchy.faces[patch.faces.start];
                 for half in Half::whole(face, self.seed.child(index as u64)).halves() {
-                    halve(select, half, face, face.area / 2.0, draw);
+                    if !halve(select, half, face, face.area / 2.0, draw) {
+                        return;
+                    }
                 }
             }
             index += 1;
         }
+    }
+}
+
+/// Counts the parts that all threads visit.
+struct Visits {
+    count: AtomicUsize,
+    most: usize,
+}
+
+impl Visits {
+    /// Counts one more, and returns whether there are still few enough.
+    fn add(&self) -> bool {
+        self.count.fetch_add(1, Ordering::Relaxed) < self.most
     }
 }
 
@@ -369,25 +458,24 @@ fn wanted(
     share.is_some_and(|share| share > 1.0 && !select.hidden(center, radius, share))
 }
 
+/// Gives the features of a part of a face to `draw`. Returns false once `draw` does.
 fn halve(
     select: &impl Select,
     half: Half,
     face: &Face,
     area: f64,
-    draw: &mut impl FnMut(&Feature),
-) {
+    draw: &mut impl FnMut(&Feature) -> bool,
+) -> bool {
     let [a, b, c] = half.corners;
     let center = (a + b + c) / 3.0;
     let radius = [a, b, c].map(|at| at.distance_squared(center)).into_iter();
     let radius = radius.fold(0.0, f32::max).sqrt();
     if half.depth > MAX_HALVINGS || !wanted(select, center, radius, Some(face.normal), area) {
-        return;
+        return true;
     }
     let halves = half.halves();
-    draw(&half.feature(&halves, face, area));
-    for half in halves {
-        halve(select, half, face, area / 2.0, draw);
-    }
+    draw(&half.feature(&halves, face, area))
+        && halves.into_iter().all(|half| halve(select, half, face, area / 2.0, draw))
 }
 
 #[cfg(test)]
@@ -449,6 +537,52 @@ mod tests {
             let mean = small as f32 / placed.len() as f32;
             // The two small ones together have an area of 1.
             assert!((mean / priority - 1.0).abs() < 0.15, "{priority}: {mean}");
+        }
+    }
+
+    /// A square of 1600 equal triangles that lie on each other.
+    fn stack() -> Mesh {
+        let mut mesh = Mesh::sphere(20);
+        mesh.positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        let [mut one, mut other] = [mesh.triangles[0]; 2];
+        (one.corners, other.corners) = ([0, 1, 2], [0, 2, 3]);
+        mesh.triangles = [one, other].repeat(800);
+        mesh
+    }
+
+    #[test]
+    fn features_of_surfaces_without_end_are_bounded_by_the_picture() {
+        let mesh = stack();
+        let features = features(&mesh);
+        let camera = Camera::framing(mesh.bounds(), 0.0, 0.0, 30.0);
+        let projection = Projection::new(&camera, 32, 24);
+        // One surface has about 130,000 features, and all have 10^8.
+        let seen = features.seen(&projection, Density::Screen, 300.0, 1.0);
+        assert!((50_000..1 << 21).contains(&seen.len()), "{}", seen.len());
+        let again = features.seen(&projection, Density::Screen, 300.0, 1.0);
+        assert!(seen == again, "threads made a difference");
+        // Only the features of the highest ranks are left out.
+        let highest = seen.iter().map(|seen| seen.rank).fold(0.0, f32::max);
+        let few = features.seen(&projection, Density::Screen, highest / 16.0, 1.0);
+        let of_seen = seen.iter().filter(|seen| seen.rank < highest / 16.0);
+        assert!(few.iter().eq(of_seen), "{} features", few.len());
+        let below = features.below(1e6);
+        assert!((10_000..1 << 20).contains(&below.len()), "{}", below.len());
+    }
+
+    #[test]
+    fn halving_ends_where_every_density_is_too_low() {
+        for (scale, end) in [(1e-9, 1e30), (1e9, f32::INFINITY)] {
+            let mut mesh = Mesh::sphere(20);
+            mesh.positions.iter_mut().for_each(|at| *at = at.map(|value| value * scale));
+            let features = features(&mesh);
+            let camera = Camera::framing(mesh.bounds(), 0.0, 0.0, 30.0);
+            let projection = Projection::new(&camera, 8, 8);
+            for density in [Density::Screen, Density::Surface { px_per_unit: 1e30 }] {
+                let seen = features.seen(&projection, density, end, 1.0);
+                assert!(seen.len() <= 1 << 25, "{scale} {end}: {}", seen.len());
+            }
+            assert!(features.below(end).len() <= 1 << 20, "{scale} {end}");
         }
     }
 

@@ -14,6 +14,6 @@ pub use curvature::Curvature;
 pub use directions::{
     Along, DirectionFault, DirectionField, DirectionSettings, FlowField, Guide, Line,
 };
-pub use file::MeshError;
+pub use file::{MeshError, ModelFile};
 pub use model::{Material, Mesh, MeshFault, Texture, Triangle};
 pub use shapes::{GridSize, SampleModel};

@@ -87,6 +87,11 @@ impl Mesh {
     }
 }
 
+/// Least and greatest width of a mesh that is read from a file. Squares of areas of its triangles
+/// must be 32-bit numbers.
+pub(super) const LEAST_SIZE: f64 = 1e-9;
+pub(super) const MOST_SIZE: f64 = 1e9;
+
 /// A defect of a mesh. All indices count from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum MeshFault {
@@ -115,6 +120,49 @@ pub enum MeshFault {
         what: &'static str,
         /// Value of the attribute.
         found: Vec<f32>,
+    },
+    /// All vertices lie at one point.
+    #[error("all {vertices} vertices of the mesh lie at one point")]
+    #[hint("export the model again, with its true positions")]
+    OnePoint {
+        /// Number of vertices.
+        vertices: usize,
+    },
+    /// The mesh is too small or too large for 32-bit numbers.
+    #[error("the mesh is {size:e} units wide, not {LEAST_SIZE:e} to {MOST_SIZE:e}")]
+    #[hint("scale the model, for example to a width of 1 unit")]
+    Size {
+        /// The longest side of the bounding box, in the model's own unit.
+        size: f64,
+    },
+    /// The mesh lies so far from the origin that rounding destroys its shape.
+    #[error(
+        "the mesh is {size:e} units wide and lies {away:e} units from the origin, where the numbers \
+         of the file tell only places {step:e} units apart"
+    )]
+    #[hint("move the model to the origin in the program that made it, and export it again")]
+    TooFar {
+        /// The longest side of the bounding box.
+        size: f64,
+        /// The greatest coordinate of its centre.
+        away: f64,
+        /// The distance of two neighbouring numbers there.
+        step: f64,
+    },
+    /// Every triangle is a point or a line.
+    #[error("no triangle of the mesh has an area")]
+    #[hint("export the model again; its triangles are points and lines, which cannot be drawn")]
+    NoArea,
+    /// The mesh has more parts than we read.
+    #[error("the mesh has {found} {what}, more than {most}")]
+    #[hint("reduce the model in the program that made it (Blender: Decimate)")]
+    TooMany {
+        /// `vertices` or `triangles`.
+        what: &'static str,
+        /// The number of them in the file.
+        found: usize,
+        /// The greatest number that we read.
+        most: usize,
     },
     /// A triangle refers to a vertex that does not exist.
     #[error("triangle {triangle} has vertex {found}, of {vertices}")]
@@ -210,6 +258,18 @@ impl Mesh {
             }
         }
         Ok(())
+    }
+}
+
+impl Mesh {
+    /// Checks that some triangle has an area, so that there is something to draw.
+    pub(super) fn check_area(&self) -> Result<(), MeshFault> {
+        let has_area = self.triangles.iter().any(|triangle| {
+            let [a, b, c] =
+                triangle.corners.map(|corner| Vec3::from(self.positions[corner as usize]));
+            (b - a).cross(c - a).try_normalize().is_some()
+        });
+        if has_area { Ok(()) } else { Err(MeshFault::NoArea) }
     }
 }
 

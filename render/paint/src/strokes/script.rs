@@ -342,8 +342,8 @@ fn check_canvas(key: &str, canvas: &Canvas) -> Checked {
     Ok(())
 }
 
-/// Checks the path of the painting that a script continues. Like the path of a library, it
-/// may lead to any folder.
+/// Checks the path of the painting that a script continues. The program decides which folders
+/// it may lead to ([`documents::file::NamedFiles`]).
 fn check_start(path: &str) -> Checked {
     let fits = (1..=1024).contains(&path.len())
         && !path.contains(char::is_control)

@@ -1,8 +1,9 @@
 //! The start of a script: bare surfaces or a painting to continue, its pigment library, and the
 //! pictures of its grounds.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use documents::file::{NamedFileError, NamedFiles};
 use documents::hint::{Explain, Hint};
 use graphics::tile::Rect;
 use pigment::PigmentId;
@@ -395,16 +396,17 @@ impl StrokeScript {
         Ok(ScriptLibrary { library: shipped, missing: Some(name.clone()) })
     }
 
-    /// Joins `folder` and the relative paths of ground pictures, and returns the complete paths.
-    pub fn complete_picture_paths(&mut self, folder: &Path) -> Vec<PathBuf> {
-        let mut paths = Vec::new();
+    /// Finds the pictures of grounds, and replaces their paths by complete ones.
+    ///
+    /// # Errors
+    /// [`NamedFileError`] for a picture that is not there, or that the script must not name.
+    pub fn complete_picture_paths(&mut self, files: &mut NamedFiles) -> Result<(), NamedFileError> {
         for surface in std::iter::once(&mut self.canvas).chain(&mut self.mixing) {
             if let GroundRelief::Image(picture) = &mut surface.ground.relief {
-                let path = folder.join(&picture.path);
+                let path = files.find("the picture of a ground", &picture.path)?;
                 picture.path = path.display().to_string();
-                paths.push(path);
             }
         }
-        paths
+        Ok(())
     }
 }

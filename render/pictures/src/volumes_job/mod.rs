@@ -21,6 +21,7 @@ use crate::animation::FramesDigest;
 use crate::error::{PictureError, SettingError};
 use crate::exports::{Listener, Note, write};
 use crate::request::{PaintAmounts, PictureRequest, Summary, TechniqueOutcome, VolumesRequest};
+use crate::style::file_in;
 use film::{Film, Snapshots};
 use scene::{Scene, Times};
 use script::{OpenScript, needs_pigments};
@@ -76,6 +77,16 @@ impl VolumesJob {
             .or_else(|| script.script.library_file(folder).filter(|_| pigments.is_some()));
         let mut inputs: Vec<PathBuf> = scene.inputs.clone();
         inputs.extend(request.style.settings.iter().chain(&library).cloned());
+        inputs.extend(request.pigments.measured_files(own.over.as_deref()));
+        inputs.extend(script.light(&request.pigments, folder).and_then(|light| file_in(&light)));
+        if scene.origin != [0.0; 3] {
+            let [x, y, z] = scene.origin;
+            listener(Note::Remark(Remark::note(format!(
+                "{}: this model lies far from the origin; places of the script, of passes and of volumes count from \
+                 ({x}, {y}, {z})",
+                path.display()
+            ))));
+        }
         let own_title = Some(script.script.title.clone()).filter(|title| !title.is_empty());
         let title = own_title.unwrap_or_else(|| request.title());
         let script_text = match &own.script_out {

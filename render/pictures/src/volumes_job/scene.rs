@@ -18,7 +18,9 @@ use volumes::settings::Settings;
 
 use super::script::OpenScript;
 use crate::error::{PictureError, SettingError};
-use crate::subject::{FARTHEST_DEG, PictureViews, Subject, ViewRequest, picture_turns};
+use crate::subject::{
+    FARTHEST_DEG, OpenSubject, PictureViews, Subject, ViewRequest, picture_turns,
+};
 
 /// A scene ready to be painted.
 #[derive(Debug)]
@@ -34,6 +36,8 @@ pub(super) struct Scene {
     subject: PathBuf,
     /// Files that the scene was read from.
     pub(super) inputs: Vec<PathBuf>,
+    /// Place of the mesh's origin in the coordinates of the model's file.
+    pub(super) origin: [f64; 3],
 }
 
 impl OpenScript {
@@ -108,14 +112,15 @@ impl OpenScript {
         let free =
             camera.is_some_and(|camera| matches!(camera.camera(frames), ScriptCamera::Path(_)));
         let views = if free { PictureViews::Free } else { PictureViews::Turned };
-        let (read, mut inputs) = request.without_camera().subject(&subject, views)?;
+        let OpenSubject { subject: read, mut inputs, origin } =
+            request.without_camera().subject(&subject, views)?;
         if self.is_file() {
             inputs.push(path.to_owned());
         }
         let photograph = matches!(read, Subject::Photograph(..));
         if request.has_camera() {
             inputs.extend(request.camera_file()?.map(Path::to_owned));
-            self.script.camera = Some(camera_table(request, photograph)?);
+            self.script.camera = Some(camera_table(request, photograph, origin)?);
             self.script = self.script.rounded();
             self.camera_given = true;
             self.script.check().map_err(|fault| self.located(fault))?;
@@ -140,7 +145,7 @@ impl OpenScript {
             }
         };
         match cameras.is_empty() {
-            false => Ok(Scene { mesh, cameras, size, photograph, subject, inputs }),
+            false => Ok(Scene { mesh, cameras, size, photograph, subject, inputs, origin }),
             true => Err(PictureError::no_frames()),
         }
     }
@@ -171,8 +176,13 @@ fn lamp_from(lamp: &str, folder: &Path) -> String {
     name.map_or(file.clone(), |name| format!("{file}#{name}"))
 }
 
-/// The camera that a request chooses, for a script of a model or a photograph.
-fn camera_table(request: &ViewRequest, photograph: bool) -> Result<CameraTable, PictureError> {
+/// The camera that a request chooses, for a script of a model or a photograph. `origin` is the place of the mesh's
+/// origin in the coordinates of the request.
+fn camera_table(
+    request: &ViewRequest,
+    photograph: bool,
+    origin: [f64; 3],
+) -> Result<CameraTable, PictureError> {
     let turntable = request.turntable.and_then(|frames| u32::try_from(frames).ok());
     if photograph {
         let way = request.picture_camera()?.map(|way| way.map(f64::from));
@@ -189,12 +199,12 @@ fn camera_table(request: &ViewRequest, photograph: bool) -> Result<CameraTable, 
             ..CameraTable::default()
         });
     };
-    let CameraPath { frames, closed, keyframes } = CameraPath::open(path)?;
+    let CameraPath { frames, closed, keyframes } = CameraPath::open(path)?.relative_to(origin);
     let keyframes = keyframes
         .into_iter()
         .map(|own: Keyframe| KeyframeTable {
-            eye: Row(own.eye.map(f64::from)),
-            target: Row(own.target.map(f64::from)),
+            eye: Row(own.eye),
+            target: Row(own.target),
             up: Some(Row(own.up.map(f64::from))),
             field_of_view_deg: Some(own.field_of_view_deg.into()),
         })

@@ -32,8 +32,8 @@ fn subjects_that_paint_cannot_lie_on_are_refused() {
         property float z\nend_header\n0 0 0\n1 0 0\n";
     for (name, text, status, words) in [
         ("points.ply", points, 1, &["points.ply", "no triangle", "points and lines"][..]),
-        ("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", 1, &["line.obj", "no area"]),
-        ("dot.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n", 1, &["dot.obj", "no area"]),
+        ("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", 1, &["line.obj", "has an area"]),
+        ("dot.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n", 1, &["dot.obj", "at one point"]),
         ("nan.obj", "v 0 0 0\nv nan 0 0\nv 1 0 1\nf 1 2 3\n", 1, &["nan.obj", "line 2", "`nan`"]),
         ("text.png", "no picture", 1, &["text.png", "not a PNG"]),
     ] {

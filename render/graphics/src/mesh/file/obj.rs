@@ -4,16 +4,19 @@
 //! numbers and panics on some input.
 
 use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use documents::counted;
+use documents::file::{NamedFiles, Outside};
 
-use super::part::{MeshError, PAINTED, PLAIN, Part};
-use crate::mesh::model::{Material, Mesh, Texture};
+use super::part::{MeshError, PAINTED, PLAIN, Part, Parts, Read, Textures};
+use crate::mesh::model::{Material, Texture};
 
 /// Reads an OBJ file. We take colours of materials and vertices as encoded sRGB. If some vertices
 /// of a group lack a normal or texture coordinate, this ignores all of the group's.
-pub(super) fn read(name: &str, folder: &Path, bytes: &[u8]) -> Result<Mesh, MeshError> {
+pub(super) fn read(path: &Path, bytes: &[u8], outside: Outside) -> Result<Read, MeshError> {
+    let name = &path.display().to_string();
     let text = String::from_utf8_lossy(bytes);
     fn at_line(name: &str, (line, reason): (usize, String)) -> MeshError {
         MeshError::Malformed { name: name.to_owned(), place: format!("line {line}"), reason }
@@ -25,12 +28,18 @@ pub(super) fn read(name: &str, folder: &Path, bytes: &[u8]) -> Result<Mesh, Mesh
         ignore_points: true,
         ignore_lines: true,
     };
+    let files = RefCell::new(NamedFiles::of(path, outside));
+    let libraries = RefCell::new(BTreeSet::new());
     // tobj's error type cannot carry our errors out of the callback.
     let failed = RefCell::new(None);
     let loaded = tobj::load_obj_buf(&mut text.as_bytes(), &options, |file| {
-        let file = folder.join(file);
-        let name = file.display().to_string();
-        let read = documents::file::read(&file).map_err(MeshError::from);
+        let named = file.display().to_string();
+        // A library that is named a thousand times is read once.
+        if !libraries.borrow_mut().insert(named.clone()) {
+            return Ok(Default::default());
+        }
+        let name = path.with_file_name(file).display().to_string();
+        let read = files.borrow_mut().read("mtllib", &named).map_err(MeshError::from);
         let checked = read.and_then(|bytes| {
             let text = String::from_utf8_lossy(&bytes).into_owned();
             check_mtl(&text).map_err(|fault| at_line(&name, fault)).map(|()| text)
@@ -61,64 +70,77 @@ pub(super) fn read(name: &str, folder: &Path, bytes: &[u8]) -> Result<Mesh, Mesh
         }
     };
     unknown_material(&text, &materials).map_or(Ok(()), |fault| Err(at_line(name, fault)))?;
-    let mut mesh = Mesh::default();
+    let mut files = files.into_inner();
+    let mut parts = Parts::default();
+    let mut textures = Textures::default();
     for material in &materials {
-        mesh.materials.push(painted(name, folder, material)?);
+        let material = painted(name, material, &mut files, &mut textures)?;
+        parts.mesh.materials.push(material);
     }
-    let plain = mesh.materials.len() as u32;
+    let plain = parts.mesh.materials.len() as u32;
     // Either all vertices of a file have colours or none has.
     let colored = models.iter().any(|model| !model.mesh.vertex_color.is_empty());
     for model in models {
         let tobj::Mesh { positions, normals, texcoords, vertex_color, indices, .. } = model.mesh;
         let count = positions.len() / 3;
         let material = model.mesh.material_id.map_or(plain, |id| id as u32);
-        let mut part = Part { positions: triples(positions), material, ..Part::default() };
+        let positions = positions.chunks_exact(3).map(|at| [at[0], at[1], at[2]]).collect();
+        let mut part = Part { positions, material, ..Part::default() };
         if normals.len() == 3 * count {
-            part.normals = triples(normals);
+            part.normals = triples(&normals);
         }
         if texcoords.len() == 2 * count {
             let upwards = texcoords.chunks_exact(2);
-            part.texture_coordinates = upwards.map(|at| [at[0], 1.0 - at[1]]).collect();
+            let upwards = upwards.map(|at| [at[0] as f32, 1.0 - at[1] as f32]);
+            part.texture_coordinates = upwards.collect();
         }
         if vertex_color.len() == 3 * count {
-            let colors = triples(vertex_color);
+            let colors = triples(&vertex_color);
             part.colors = colors.iter().map(|rgb| rgb.map(|v| v.clamp(0.0, 1.0))).collect();
         }
         part.corners = indices;
-        part.append_to(&mut mesh);
+        parts.add(part).map_err(|fault| MeshError::faulty(path, fault))?;
     }
-    if mesh.triangles.iter().any(|triangle| triangle.material == plain) {
-        mesh.materials.push(if colored { PAINTED } else { PLAIN });
+    if parts.mesh.triangles.iter().any(|triangle| triangle.material == plain) {
+        parts.mesh.materials.push(if colored { PAINTED } else { PLAIN });
     }
-    Ok(mesh)
+    let finished = parts.finish();
+    let (mesh, origin) = finished.map_err(|fault| MeshError::faulty(path, fault))?;
+    Ok((mesh, origin, files.found().to_vec()))
 }
 
-fn triples(values: Vec<f32>) -> Vec<[f32; 3]> {
-    values.chunks_exact(3).map(|at| [at[0], at[1], at[2]]).collect()
+fn triples(values: &[f64]) -> Vec<[f32; 3]> {
+    values.chunks_exact(3).map(|at| [0, 1, 2].map(|i| at[i] as f32)).collect()
 }
 
 /// First `usemtl` line that names an unknown material. A file without `mtllib` may name any
 /// material.
 fn unknown_material(text: &str, materials: &[tobj::Material]) -> Option<(usize, String)> {
     let has_library = text.lines().any(|line| line.trim().starts_with("mtllib "));
+    let known: BTreeSet<&str> = materials.iter().map(|material| material.name.as_str()).collect();
     has_library
         .then(|| {
             text.lines().zip(1..).find_map(|(line, number): (&str, usize)| {
                 let name = line.trim().strip_prefix("usemtl ")?.trim();
-                let known = materials.iter().any(|material| material.name == name);
-                (!known).then(|| (number, format!("no material `{name}` in the libraries")))
+                let reason = format!("no material `{name}` in the libraries");
+                (!known.contains(name)).then_some((number, reason))
             })
         })
         .flatten()
 }
 
-fn painted(name: &str, folder: &Path, found: &tobj::Material) -> Result<Material, MeshError> {
+fn painted(
+    name: &str,
+    found: &tobj::Material,
+    files: &mut NamedFiles,
+    textures: &mut Textures,
+) -> Result<Material, MeshError> {
     let texture = match &found.diffuse_texture {
         None => None,
         Some(arguments) => {
             let file = without_options(arguments).replace('\\', "/");
-            let bytes = std::fs::read(folder.join(&file)).map_err(|error| error.to_string());
-            let texture = bytes.and_then(|bytes| Texture::from_bytes(&bytes));
+            let bytes = files.read(&format!("map_Kd of the material `{}`", found.name), &file)?;
+            let texture: Result<Texture, String> = textures.decode(&bytes);
             Some(texture.map_err(|reason| MeshError::Texture {
                 name: name.to_owned(),
                 texture: file,
@@ -127,8 +149,9 @@ fn painted(name: &str, folder: &Path, found: &tobj::Material) -> Result<Material
         }
     };
     // A textured material without a colour shows its texture unchanged.
-    let color = found.diffuse.unwrap_or(if texture.is_some() { [1.0; 3] } else { PLAIN.color });
-    let color = color.map(|value| value.clamp(0.0, 1.0));
+    let plain = PLAIN.color.map(f64::from);
+    let color = found.diffuse.unwrap_or(if texture.is_some() { [1.0; 3] } else { plain });
+    let color = color.map(|value| (value as f32).clamp(0.0, 1.0));
     Ok(Material { name: found.name.clone(), color, texture })
 }
 

@@ -8,13 +8,16 @@ use ply_rs_bw::ply::{
     ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult,
 };
 
-use super::part::{MeshError, PAINTED, PLAIN, Part};
-use crate::mesh::model::Mesh;
+use documents::file::Outside;
+
+use super::part::{MeshError, PAINTED, PLAIN, Part, Parts, Read};
+use crate::mesh::model::{Mesh, MeshFault};
 
 /// Reads a PLY file. This skips elements other than vertices and faces.
-pub(super) fn read(name: &str, _: &Path, bytes: &[u8]) -> Result<Mesh, MeshError> {
+pub(super) fn read(path: &Path, bytes: &[u8], _: Outside) -> Result<Read, MeshError> {
+    let name = path.display().to_string();
     let malformed = |place: &str, reason: &str| MeshError::Malformed {
-        name: name.to_owned(),
+        name: name.clone(),
         place: place.to_owned(),
         reason: reason.split_whitespace().collect::<Vec<_>>().join(" "),
     };
@@ -35,6 +38,10 @@ pub(super) fn read(name: &str, _: &Path, bytes: &[u8]) -> Result<Mesh, MeshError
     let mut faces = Vec::new();
     for (name, element) in &header.elements {
         let of = format!("element `{name}`");
+        // Without a property an element takes no bytes, so nothing would limit their number.
+        if element.properties.is_empty() && element.count > 0 {
+            return Err(malformed(&of, "it has no properties"));
+        }
         let read = match name.as_str() {
             "vertex" => elements(&mut reader, element, &header).map(|found| vertices = found),
             "face" => elements(&mut reader, element, &header).map(|found| faces = found),
@@ -49,7 +56,9 @@ pub(super) fn read(name: &str, _: &Path, bytes: &[u8]) -> Result<Mesh, MeshError
     if let Some(axis) = lacking {
         return Err(malformed("element `vertex`", &format!("it has no property `{axis}`")));
     }
-    Ok(assembled(&vertices, &faces, &|property| has("vertex", property, &header)))
+    let read = assembled(&vertices, &faces, &|property| has("vertex", property, &header));
+    let (mesh, origin) = read.map_err(|fault| MeshError::Faulty(name, fault))?;
+    Ok((mesh, origin, Vec::new()))
 }
 
 fn elements<E: PropertyAccess>(
@@ -60,9 +69,17 @@ fn elements<E: PropertyAccess>(
     Parser::new().read_payload_for_element(reader, element, header)
 }
 
-fn assembled(vertices: &[Vertex], faces: &[Face], has: &dyn Fn(&str) -> bool) -> Mesh {
+fn assembled(
+    vertices: &[Vertex],
+    faces: &[Face],
+    has: &dyn Fn(&str) -> bool,
+) -> Result<(Mesh, [f64; 3]), MeshFault> {
+    let mut parts = Parts::default();
+    let triangles = faces.iter().map(|face| face.corners.len().saturating_sub(2)).sum();
+    parts.check_room(vertices.len(), triangles)?;
     let mut part = Part {
         positions: vertices.iter().map(|vertex| vertex.position).collect(),
+        step: vertices.iter().map(|vertex| vertex.step).fold(0.0, f64::max),
         ..Part::default()
     };
     if has("nx") {
@@ -81,10 +98,9 @@ fn assembled(vertices: &[Vertex], faces: &[Face], has: &dyn Fn(&str) -> bool) ->
             part.corners.extend([face.corners[0], face.corners[i - 1], face.corners[i]]);
         }
     }
-    let mut mesh = Mesh::default();
-    mesh.materials.push(if part.colors.is_empty() { PLAIN } else { PAINTED });
-    part.append_to(&mut mesh);
-    mesh
+    parts.mesh.materials.push(if part.colors.is_empty() { PLAIN } else { PAINTED });
+    parts.add(part)?;
+    parts.finish()
 }
 
 /// Names that programs use for texture coordinates and colours.
@@ -95,7 +111,9 @@ const COLORS: [[&str; 3]; 3] =
 
 #[derive(Default)]
 struct Vertex {
-    position: [f32; 3],
+    position: [f64; 3],
+    /// Greatest distance of two neighbouring numbers near the position, in its type.
+    step: f64,
     normal: [f32; 3],
     coordinates: [f32; 2],
     color: [f32; 3],
@@ -109,9 +127,18 @@ impl PropertyAccess for Vertex {
     fn set_property(&mut self, key: &str, property: Property) -> PropertyAccessResult {
         let Some(value) = property.to_f32_lossy() else { return PropertyAccessResult::Ignored };
         match key {
-            "x" => self.position[0] = value,
-            "y" => self.position[1] = value,
-            "z" => self.position[2] = value,
+            "x" | "y" | "z" => {
+                let exact = match property {
+                    Property::Double(value) => value,
+                    Property::Int(value) => value.into(),
+                    Property::UInt(value) => value.into(),
+                    _ => value.into(),
+                };
+                if let Property::Float(value) = property {
+                    self.step = self.step.max(f64::from(value.abs() * f32::EPSILON));
+                }
+                self.position[usize::from(key.as_bytes()[0] - b'x')] = exact;
+            }
             "nx" => self.normal[0] = value,
             "ny" => self.normal[1] = value,
             "nz" => self.normal[2] = value,

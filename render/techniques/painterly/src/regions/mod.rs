@@ -6,6 +6,7 @@ mod area;
 use std::path::Path;
 
 use documents::counted;
+use documents::file::{NamedFileError, NamedFiles};
 use documents::hint::Explain;
 use documents::text::{Source, TextError, read_text};
 use graphics::field::Field;
@@ -104,6 +105,9 @@ pub enum RegionsError {
     /// The text cannot be read.
     #[error(transparent)]
     Text(#[from] TextError),
+    /// The picture of labels is not there, or must not be named.
+    #[error(transparent)]
+    Named(#[from] NamedFileError),
     /// The picture of labels cannot be read.
     #[error(transparent)]
     Labels(#[from] PhotographError),
@@ -163,16 +167,17 @@ struct Entry {
 }
 
 impl Regions {
-    /// Reads a TOML file of regions, and the picture of labels that it names, relative to the file.
+    /// Reads a TOML file of regions, and the picture of labels that it names. `files` finds that
+    /// picture, relative to the file.
     ///
     /// # Errors
     /// [`RegionsError`] with file, line or region, and key.
-    pub fn open(path: &Path) -> Result<Self, RegionsError> {
+    pub fn open(path: &Path, files: &mut NamedFiles) -> Result<Self, RegionsError> {
         let name = path.display().to_string();
         let (mut own, labels) = parsed(&name, &read_text(path)?)?;
         if let Some(file) = labels {
-            let beside = path.parent().unwrap_or(Path::new("")).join(file);
-            own.labels = Some(labels_of(&Photograph::open(&beside)?));
+            let found = files.find("labels", &file)?;
+            own.labels = Some(labels_of(&Photograph::open(&found)?));
         }
         own.checked()
     }

@@ -131,13 +131,10 @@ impl CameraTable {
 
 impl KeyframeTable {
     fn keyframe(&self) -> Keyframe {
-        fn of(row: Row<3>) -> [f32; 3] {
-            row.0.map(|value| value as f32)
-        }
         Keyframe {
-            eye: of(self.eye),
-            target: of(self.target),
-            up: self.up.map_or([0.0, 1.0, 0.0], of),
+            eye: self.eye.0,
+            target: self.target.0,
+            up: self.up.map_or([0.0, 1.0, 0.0], |up| up.0.map(|value| value as f32)),
             field_of_view_deg: self.field_of_view_deg.map_or(35.0, |degrees| degrees as f32),
         }
     }

@@ -1,10 +1,12 @@
 //! Meshes: read from OBJ, PLY and glTF with geometry, materials, textures and transforms. Invalid
-//! files give errors with the location, the reason and a hint. Also normals, closed surfaces,
-//! faults of meshes, and the sample models.
+//! files give errors with the location, the reason and a hint.
 
+mod foreign;
+mod shapes;
+
+use base64::Engine;
 use documents::hint::Explain;
-use glam::Vec3;
-use graphics::mesh::{GridSize, Material, Mesh, MeshError, MeshFault, SampleModel, Texture};
+use graphics::mesh::{Material, Mesh, MeshError};
 use serde_json::json;
 
 /// Writes these files, opens the first one as a mesh and checks it.
@@ -275,13 +277,16 @@ fn obj_files() {
 fn materials_and_textures_of_obj_files() {
     let obj = format!("mtllib a.mtl\n{POSITIONS}usemtl red\nf 1 2 3\n").into_bytes();
     let error = opened(&[("a.obj", &obj)]).unwrap_err();
-    assert!(matches!(&error, MeshError::Unreadable(file) if file.to_string().contains("a.mtl")));
+    assert!(error.to_string().ends_with("a.obj: mtllib `a.mtl`: cannot be read"), "{error}");
     for (mtl, wanted) in [
         ("newmtl red\nKd 1 0\n", "a.mtl: line 2: no colour of 3 numbers: `Kd 1 0`"),
         ("newmtl red\nKd spectral x.rfl\n", "a.mtl: line 2: not a finite number: `spectral`"),
         ("newmtl red\nd x\n", "a.mtl: materials"),
         ("newmtl blue\nKd 0 0 1\n", "a.obj: line 5: no material `red`"),
-        ("newmtl red\nmap_Kd no.png\n", "the texture `no.png`"),
+        (
+            "newmtl red\nmap_Kd no.png\n",
+            "a.obj: map_Kd of the material `red` `no.png`: cannot be read",
+        ),
         ("newmtl red\nmap_Kd a.mtl\n", "the texture `a.mtl`"),
     ] {
         let error = opened(&[("a.obj", &obj), ("a.mtl", mtl.as_bytes())]).unwrap_err();
@@ -332,22 +337,71 @@ fn gltf_files() {
     };
     type Change = Box<dyn Fn(&mut serde_json::Value)>;
     let cases: Vec<(Change, &[&str])> = vec![
-        (Box::new(|d| d["accessors"][0]["count"] = json!(5)), &["accessor 0", "5 values"]),
-        (Box::new(|d| d["accessors"][0]["count"] = json!(0)), &["no values"]),
-        (Box::new(|d| d["accessors"][0]["count"] = json!(1u64 << 62)), &["accessor 0"]),
-        (Box::new(|d| d["accessors"][0]["type"] = json!("VEC4")), &["POSITION", "Vec4"]),
-        (Box::new(|d| d["accessors"][0]["componentType"] = json!(5121)), &["POSITION", "U8"]),
-        (Box::new(|d| d["accessors"][1]["componentType"] = json!(5126)), &["indices", "F32"]),
+        (Box::new(|d| d["accessors"][0]["count"] = json!(5)), &["accessors[0] with 5 values ends"]),
+        (
+            Box::new(|d| d["accessors"][0]["count"] = json!(0)),
+            &["primitives[0]: POSITION: accessors[0] has no values"],
+        ),
+        (Box::new(|d| d["accessors"][0]["count"] = json!(1u64 << 62)), &["accessors[0]"]),
+        (
+            Box::new(|d| d["accessors"][0]["type"] = json!("VEC4")),
+            &["POSITION", "in VEC4, not FLOAT in VEC3"],
+        ),
+        (
+            Box::new(|d| d["accessors"][0]["componentType"] = json!(5121)),
+            &["POSITION", "componentType 5121"],
+        ),
+        (
+            Box::new(|d| d["accessors"][1]["componentType"] = json!(5126)),
+            &["indices", "componentType 5126"],
+        ),
         (
             Box::new(|d| d["accessors"][0]["bufferView"] = json!(null)),
-            &["document", "accessors[0].bufferView"],
+            &["accessors[0] has no bufferView"],
         ),
-        (Box::new(|d| d["accessors"][0]["bufferView"] = json!(9)), &["document"]),
-        (Box::new(|d| d["bufferViews"][0]["byteOffset"] = json!(40)), &["buffer view 0"]),
-        (Box::new(|d| d["bufferViews"][0]["byteOffset"] = json!(u64::MAX)), &["buffer view 0"]),
+        (Box::new(|d| d["accessors"][0]["sparse"] = json!({})), &["sparse values"]),
+        (Box::new(|d| d["accessors"] = json!([])), &["accessors[0] does not exist"]),
+        (Box::new(|d| d["bufferViews"][0]["buffer"] = json!(4)), &["buffers[4] does not exist"]),
+        (Box::new(|d| d["bufferViews"][0]["byteStride"] = json!(0)), &["byteStride of 0, not 12"]),
+        (Box::new(|d| d["nodes"][0]["children"] = json!([7])), &["nodes[7] does not exist"]),
+        (Box::new(|d| d["scenes"][0]["nodes"] = json!([7])), &["nodes[7] does not exist"]),
+        (Box::new(|d| d["scene"] = json!(7)), &["scene: scenes[7] does not exist"]),
+        (Box::new(|d| d["nodes"][0]["mesh"] = json!(7)), &["nodes[0]: meshes[7] does not exist"]),
+        (
+            Box::new(|d| d["meshes"][0]["primitives"][0]["material"] = json!(7)),
+            &["materials[7] does not exist"],
+        ),
+        (Box::new(|d| d["meshes"][0]["primitives"][0]["mode"] = json!(7)), &["mode 7"]),
+        (
+            Box::new(|d| d["meshes"][0]["primitives"][0]["attributes"] = json!({})),
+            &["meshes[0].primitives[0]: it has no POSITION"],
+        ),
+        (
+            Box::new(|d| {
+                d["materials"] = json!([{ "pbrMetallicRoughness": {
+                    "baseColorTexture": { "index": 0 } } }]);
+            }),
+            &["materials[0]: textures[0] does not exist"],
+        ),
+        (
+            Box::new(|d| d["nodes"][0]["translation"] = json!([1e30, 0, 0])),
+            &["1e30 units from the origin"],
+        ),
+        (Box::new(|d| d["nodes"][0]["scale"] = json!([0, 0, 0])), &["at one point"]),
+        (Box::new(|d| d["nodes"][0]["scale"] = json!([1e-30, 1, 0])), &["no triangle", "area"]),
+        (Box::new(|d| d["nodes"][0]["scale"] = json!([1e300, 1e300, 1e300])), &["units wide"]),
+        (
+            Box::new(|d| d["accessors"][0]["bufferView"] = json!(9)),
+            &["bufferViews[9] does not exist"],
+        ),
+        (
+            Box::new(|d| d["bufferViews"][0]["byteOffset"] = json!(40)),
+            &["bufferViews[0] ends after buffers[0]"],
+        ),
+        (Box::new(|d| d["bufferViews"][0]["byteOffset"] = json!(u64::MAX)), &["bufferViews[0]"]),
         (Box::new(|d| d["accessors"][0]["count"] = json!(2)), &["it has vertex 2, of 2"]),
         (Box::new(|d| d["meshes"][0]["primitives"][0]["mode"] = json!(1)), &["no triangle"]),
-        (Box::new(|d| d["nodes"][0]["children"] = json!([0])), &["node 0", "two parents"]),
+        (Box::new(|d| d["nodes"][0]["children"] = json!([0])), &["nodes[0]", "two parents"]),
         (Box::new(|d| d["scenes"][0]["nodes"] = json!([])), &["no triangle"]),
         (
             Box::new(|d| d["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = json!(1)),
@@ -360,20 +414,70 @@ fn gltf_files() {
                 d["textures"] = json!([{ "source": 0 }]);
                 d["images"] = json!([{ "uri": "no%20such.png" }]);
             }),
-            &["the texture `no such.png`"],
+            &["images[0].uri `no such.png`: cannot be read"],
         ),
     ];
     for (change, wanted) in &cases {
         refused(&[("a.gltf", &with(&**change)), ("data.bin", &buffer)], wanted);
     }
     let whole = with(&|_| {});
-    refused(&[("a.gltf", &whole)], &["buffer 0"]);
-    refused(&[("a.gltf", &whole), ("data.bin", &buffer[..40])], &["buffer 0", "40 bytes of 60"]);
+    refused(&[("a.gltf", &whole)], &["buffers[0].uri `data.bin`: cannot be read"]);
+    refused(&[("a.gltf", &whole), ("data.bin", &buffer[..40])], &["buffers[0]", "40 of 60 bytes"]);
     let odd = String::from_utf8(whole.clone()).unwrap().replace("data.bin", "%ff");
-    refused(&[("a.gltf", odd.as_bytes())], &["buffer 0", "%ff"]);
+    refused(&[("a.gltf", odd.as_bytes())], &["buffers[0]", "%ff"]);
     refused(&[("a.glb", b"glTF\x02\0\0\0\xff\xff\xff\x7f")], &["the document"]);
     refused(&[("a.gltf", b"{")], &["the document"]);
     assert!(opened(&[("a.gltf", &whole), ("data.bin", &buffer)]).is_ok());
+}
+
+/// The square with one material, which shows the picture of `image`.
+fn pictured(image: &serde_json::Value) -> serde_json::Value {
+    let mut document = square_document();
+    document["meshes"][0]["primitives"][0]["material"] = json!(0);
+    document["materials"] =
+        json!([{ "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } }]);
+    document["textures"] = json!([{ "source": 0 }]);
+    document["images"] = json!([image]);
+    document
+}
+
+#[test]
+fn pictures_of_gltf_files_lie_in_the_buffer_or_in_the_document() {
+    let mut buffer = square_bytes();
+    let picture = two_texels();
+    buffer.extend(&picture);
+    let view = json!({ "buffer": 0, "byteOffset": 60, "byteLength": picture.len() });
+    let coded = base64::engine::general_purpose::STANDARD.encode(&picture);
+    let data = format!("data:image/png;base64,{coded}");
+    // The kind of a picture is clear from its content: `mimeType` may be missing.
+    for image in [
+        json!({ "bufferView": 2 }),
+        json!({ "bufferView": 2, "mimeType": "image/png" }),
+        json!({ "uri": data }),
+    ] {
+        let mut document = pictured(&image);
+        document["bufferViews"].as_array_mut().unwrap().push(view.clone());
+        let files: [(&str, &[u8]); 2] =
+            [("a.gltf", &gltf(&buffer, document)), ("data.bin", &buffer)];
+        let mesh = opened(&files).unwrap();
+        let texture = mesh.materials[0].texture.as_ref().unwrap();
+        assert_eq!(texture.texels.map_bytes(), [[255, 0, 0, 255], [0, 0, 255, 255]]);
+    }
+    for (image, words) in [
+        (json!({}), "images[0]: it has neither a uri nor a bufferView"),
+        (json!({ "bufferView": 9 }), "images[0]: bufferViews[9] does not exist"),
+        (json!({ "uri": "https://example.org/a.png" }), "nothing is loaded from a network"),
+        (json!({ "uri": "data:image/png;base64,AAAA" }), "the texture `images[0]`"),
+        (json!({ "uri": "data:image/png,abc" }), "images[0].uri: a data URI that is not in base64"),
+    ] {
+        let files: [(&str, &[u8]); 2] =
+            [("a.gltf", &gltf(&buffer, pictured(&image))), ("data.bin", &buffer)];
+        refused(&files, &[words]);
+    }
+    let mut document = pictured(&json!({}));
+    document["textures"] = json!([{}]);
+    let files: [(&str, &[u8]); 2] = [("a.gltf", &gltf(&buffer, document)), ("data.bin", &buffer)];
+    refused(&files, &["materials[0]: textures[0] has no source"]);
 }
 
 #[test]
@@ -382,123 +486,4 @@ fn names_and_paths() {
     refused(&[("model", b"")], &["``"]);
     let error = Mesh::open(std::path::Path::new("no/such/model.obj")).unwrap_err();
     assert!(error.to_string().contains("no/such/model.obj"), "{error}");
-}
-
-/// Largest angle in degrees between `normals` and the radii of a ball.
-fn worst(mesh: &Mesh, normals: &[[f32; 3]]) -> f32 {
-    let angles = mesh.positions.iter().zip(normals).map(|(&place, &normal)| {
-        Vec3::from(place).normalize().dot(normal.into()).clamp(-1.0, 1.0).acos().to_degrees()
-    });
-    angles.fold(0.0, f32::max)
-}
-
-#[test]
-fn a_ball_has_its_radii_as_normals() {
-    let ball = Mesh::sphere(5000);
-    ball.check().unwrap();
-    assert!(worst(&ball, &ball.normals) < 0.2, "{}", worst(&ball, &ball.normals));
-    let made = ball.vertex_normals();
-    assert!(worst(&ball, &made) < 0.5, "{}", worst(&ball, &made));
-}
-
-#[test]
-fn smoothing_keeps_a_ball_and_evens_bumps() {
-    let mut ball = Mesh::sphere(5000);
-    let kept = ball.smoothed_normals(20);
-    // Around the poles, triangles are uneven, so averaged normals deviate.
-    assert!(worst(&ball, &kept) < 4.0, "{}", worst(&ball, &kept));
-    let smooth = ball.normals.clone();
-    // Perturbs each normal by its position, and equally on both sides of the seam.
-    for (normal, place) in ball.normals.iter_mut().zip(&ball.positions) {
-        let [x, y, z] = place.map(|at| (at * 977.0).sin() * 0.4);
-        *normal = (Vec3::from(*normal) + Vec3::new(x, y, z)).normalize().into();
-    }
-    let bumpy = ball.normals.clone();
-    let rounds = [0, 1, 4, 16].map(|rounds| {
-        let normals = ball.smoothed_normals(rounds);
-        let off = normals.iter().zip(&smooth).map(|(&a, &b)| Vec3::from(a).distance(b.into()));
-        off.sum::<f32>() / smooth.len() as f32
-    });
-    assert!(rounds.is_sorted_by(|a, b| b < a) && rounds[3] < rounds[0] / 8.0, "{rounds:?}");
-    assert_eq!(ball.smoothed_normals(0), bumpy);
-    // Vertices at the same position keep equal normals.
-    let normals = ball.smoothed_normals(3);
-    let GridSize { columns, rows } = GridSize::for_triangles(5000, 2.0);
-    let width = columns + 1;
-    assert_eq!(ball.positions.len(), width * (rows + 1));
-    for row in 0..=rows {
-        assert_eq!(ball.positions[row * width], ball.positions[row * width + width - 1]);
-        assert_eq!(normals[row * width], normals[row * width + width - 1], "row {row}");
-    }
-}
-
-#[test]
-fn closed_surfaces_are_told_from_open_and_inverted_ones() {
-    let mut ball = Mesh::sphere(500);
-    assert!(ball.is_closed() && Mesh::torus_knot(3000).is_closed());
-    ball.triangles.iter_mut().for_each(|triangle| triangle.corners.swap(0, 1));
-    assert!(!ball.is_closed(), "inside out");
-    let mut open = Mesh::sphere(500);
-    open.triangles.pop();
-    assert!(!open.is_closed(), "a hole");
-    assert!(!Mesh::default().is_closed());
-}
-
-#[test]
-fn what_cannot_be_drawn_is_found() {
-    type Change = (fn(&mut Mesh), &'static str);
-    let cases: [Change; 7] = [
-        (|mesh| mesh.triangles.clear(), "no triangle"),
-        (|mesh| mesh.colors.truncate(1), "1 colours for"),
-        (|mesh| mesh.positions[3][1] = f32::NAN, "vertex 3 has the position"),
-        (|mesh| mesh.triangles[2].corners[1] = 4000, "triangle 2 has vertex 4000"),
-        (|mesh| mesh.triangles[2].material = 1, "triangle 2 has material 1, of 1"),
-        (|mesh| mesh.materials[0].color[2] = 1.5, "material 0 has the colour"),
-        (
-            |mesh| {
-                let texture = Texture { width: 2, height: 2, texels: vec![0; 3] };
-                mesh.materials[0].texture = Some(texture);
-            },
-            "3 texels for 2 x 2",
-        ),
-    ];
-    let found = cases.map(|(change, words)| {
-        let mut mesh = Mesh::sphere(100);
-        change(&mut mesh);
-        (mesh.check().unwrap_err(), words)
-    });
-    assert_eq!(found[0].0, MeshFault::NoTriangle);
-    for (fault, words) in found {
-        assert!(fault.to_string().contains(words), "{fault}");
-        assert!(fault.hint().is_some());
-    }
-}
-
-#[test]
-fn shapes_are_whole_and_as_fine_as_asked() {
-    for shape in SampleModel::ALL {
-        assert_eq!(SampleModel::from_name(shape.name()), Some(shape));
-        for triangles in [3000, 25_000, 60_000] {
-            let mesh = shape.mesh(triangles);
-            mesh.check().unwrap();
-            let found = mesh.triangles.len();
-            let near = triangles * 85 / 100..triangles * 115 / 100;
-            assert!(near.contains(&found), "{}: {found} for {triangles}", shape.name());
-            let lengths = mesh.normals.iter().map(|&normal| Vec3::from(normal).length());
-            assert!(lengths.into_iter().all(|length| (length - 1.0).abs() < 1e-4));
-            let colors = mesh.colors.iter().flatten();
-            assert!(colors.into_iter().all(|value| (0.0..=1.0).contains(value)));
-            // Normals point to the side where corners run counter-clockwise.
-            let agree = mesh.triangles.iter().filter(|triangle| {
-                let at = triangle.corners.map(|at| Vec3::from(mesh.positions[at as usize]));
-                let normal: Vec3 =
-                    triangle.corners.iter().map(|&at| Vec3::from(mesh.normals[at as usize])).sum();
-                (at[1] - at[0]).cross(at[2] - at[0]).dot(normal) > 0.0
-            });
-            let share = agree.count() as f64 / found as f64;
-            assert!(share > 0.995, "{} of {triangles}: {share}", shape.name());
-        }
-    }
-    assert_eq!(SampleModel::from_name("teapot"), None);
-    assert_eq!(SampleModel::Village.mesh(3000), SampleModel::Village.mesh(3000));
 }
