@@ -8,7 +8,7 @@ use documents::hint::Explain;
 use image::{ImageReader, Limits};
 
 use crate::mesh::model::{Material, Mesh, MeshFault, Texture, Triangle};
-use crate::picture_formats::{NAMES, fault_of_jpeg};
+use crate::picture_formats::{NAMES, fault_of_coding};
 
 #[derive(Debug, Default)]
 pub(super) struct Part {
@@ -58,7 +58,7 @@ const LONGEST: u32 = 16_384;
 impl Texture {
     /// Decodes a PNG, JPEG, TIFF or WebP image. If it cannot, the error is the decoder's reason.
     pub(super) fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
-        if let Some(fault) = fault_of_jpeg(bytes) {
+        if let Some(fault) = fault_of_coding(bytes) {
             return Err(fault);
         }
         let mut reader = ImageReader::new(Cursor::new(bytes))
