@@ -71,7 +71,7 @@ fn damage(random: &mut impl Rng, bytes: &mut Vec<u8>, other: &[u8]) {
     match random.random_range(0..10) {
         0 => bytes[at] = random.random(),
         1 => bytes[at] ^= 1 << random.random_range(0..8),
-        2 => bytes[at] = b"0123456789.-+eE<>&;,/\"'[]{}= \n"[random.random_range(0..31)],
+        2 => bytes[at] = b"0123456789.-+eE<>&;,/\"'[]{}= \n"[random.random_range(0..30)],
         3 => bytes.truncate(at),
         4 => drop(bytes.drain(part(random, length))),
         5 => {

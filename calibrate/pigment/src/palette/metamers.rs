@@ -395,8 +395,8 @@ mod tests {
     #[test]
     fn no_pair_has_a_larger_index_than_its_bound() {
         let library = PigmentLibrary::van_gogh_oils();
-        let palette =
-            Palette::new(&library, &Viewing::default(), Cards::standard(library.grid)).unwrap();
+        let viewing = Viewing::default();
+        let palette = Palette::new(&library, &viewing, Cards::standard(library.grid)).unwrap();
         let lights = test_lights(&palette);
         let candidates = candidates(&palette, &lights, &[]);
         let ratios = Ratios::of(&candidates, &lights);
