@@ -1,5 +1,7 @@
 //! Checks that do not run tests: format, lints, reference pages, figures.
 
+use std::path::PathBuf;
+
 use xtask::figures::{Figures, Mark};
 use xtask::files::{files_below, root, text, texts};
 use xtask::rules;
@@ -53,14 +55,21 @@ fn is_shell_script(path: &str) -> bool {
     first.is_some_and(|bytes| shells.iter().any(|shell| bytes.starts_with(shell)))
 }
 
-/// Checks dependencies: licences, sources and duplicate versions. Advisories need a network. If you have
-/// one, call `cargo deny check advisories`.
+/// Checks dependencies: licences, sources and duplicate versions, and advisories if their database is on this
+/// machine. `cargo deny fetch` gets it from a network.
 fn deny() -> Outcome {
     if !is_installed("cargo-deny") {
         println!("licences are not checked: `cargo install cargo-deny --locked`");
         return Ok(());
     }
-    Run::cargo("deny --offline --locked check bans licenses sources").go()
+    Run::cargo("deny --offline --locked check bans licenses sources").go()?;
+    let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
+    let home = home.or_else(|| Some(std::env::home_dir()?.join(".cargo"))).unwrap_or_default();
+    if home.join("advisory-dbs").is_dir() {
+        return Run::cargo("deny --offline --locked check advisories").go();
+    }
+    println!("advisories are not checked: `cargo deny fetch`");
+    Ok(())
 }
 
 /// `docs`: the reference pages of the workspace. A warning is an error here.

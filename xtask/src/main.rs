@@ -6,6 +6,7 @@ mod runs;
 mod wheel;
 mod checks;
 mod pages;
+mod notices;
 mod release;
 mod testing;
 mod ci;

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use xtask::files::{root, text};
 
+use crate::notices::notices;
 use crate::runs::{Outcome, Run, target};
 
 /// File names under which shells look for completions.
@@ -24,7 +25,7 @@ pub(crate) fn release(folder: Option<&str>) -> Outcome {
 }
 
 /// `package [--programs FOLDER] [FOLDER]`: packs both programs with completions, manual pages,
-/// measurements and licences into `FOLDER/impasto-VERSION-TARGET.tar.gz`. If you do not name a
+/// measurements, licences and the notices of others into `FOLDER/impasto-VERSION-TARGET.tar.gz`. If you do not name a
 /// folder of programs, it packs the ones of the profile `dist`.
 pub(crate) fn package(programs: Option<&str>, folder: Option<&str>) -> Outcome {
     let programs = programs.map_or_else(|| target().join("dist"), PathBuf::from);
@@ -59,6 +60,7 @@ fn fill(packed: &Path, programs: &Path) -> Outcome {
     }
     Run::new(&program).words("-q man").args([packed.join("man/man1")]).go()?;
     let pages = ["README.md", "CHANGELOG.md", "LICENSE-APACHE", "LICENSE-MIT"];
+    write(&packed.join("THIRD-PARTY.txt"), &notices()?)?;
     Run::new("cp").words("-R measurements").args(pages).args([packed]).go()?;
     Run::new("chmod").words("-R u=rwX,go=rX").args([packed]).go()
 }

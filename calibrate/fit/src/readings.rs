@@ -523,9 +523,26 @@ pub enum ReadingsError {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::time::Instant;
 
     fn read(file: &str, text: &str, options: &ReadingOptions) -> Result<Readings, ReadingsError> {
         Readings::spectra_from_files(&[(file, text)], options)
+    }
+
+    #[test]
+    fn many_samples_take_time_in_proportion() {
+        let started = Instant::now();
+        let count = 60_000;
+        let rows: String = (0..count).map(|at| format!("a{at},0.1,0.2,0.3\n")).collect();
+        let names: Vec<String> = (0..count).map(|at| format!("b{at}")).collect();
+        let values = vec!["0.1"; count].join(",");
+        let columns = format!("nm,{}\n400,{values}\n410,{values}\n420,{values}\n", names.join(","));
+        for text in [format!("sample,400,410,420\n{rows}"), columns] {
+            let found = read("f", &text, &ReadingOptions::default()).unwrap();
+            assert_eq!(found.table.averaged().spectra.len(), count);
+        }
+        // Where every name is searched among all others, it takes more than a minute.
+        assert!(started.elapsed().as_secs() < 20, "{:?}", started.elapsed());
     }
 
     #[test]

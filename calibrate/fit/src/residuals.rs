@@ -287,6 +287,19 @@ mod tests {
     }
 
     #[test]
+    fn all_numbers_are_rounded_to_six_digits() {
+        let mut residuals = Residuals::van_gogh_oils();
+        let mixture = &mut residuals.mixtures[0];
+        mixture.shares.values_mut().for_each(|share| *share = 1.0 / 3.0);
+        mixture.measured[0] = 0.123_456_789;
+        mixture.predicted[0] = 2.0 / 3.0;
+        let rounded = residuals.rounded();
+        let mixture = &rounded.mixtures[0];
+        assert!(mixture.shares.values().all(|share| *share == 0.333_333), "{:?}", mixture.shares);
+        assert_eq!((mixture.measured[0], mixture.predicted[0]), (0.123_457, 0.666_667));
+    }
+
+    #[test]
     fn files_that_hold_no_residuals_are_refused_with_their_name() {
         let text = VAN_GOGH_OILS;
         let first = Residuals::van_gogh_oils().mixtures[0].measured[0].to_string();

@@ -41,6 +41,6 @@ pub use replace::sync_folder;
 pub use signals::end_cleanly_on_signals;
 pub use temporary::abandon_writes;
 pub use whole::{
-    FileAction, FileError, STANDARD_INPUT, check_writable, is_standard_input, is_there,
-    looks_like_path, read, write_whole,
+    EXPANSION, ExpansionError, FileAction, FileError, STANDARD_INPUT, check_expansion,
+    check_writable, has_memory, is_standard_input, is_there, looks_like_path, read, write_whole,
 };

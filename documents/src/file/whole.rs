@@ -101,6 +101,40 @@ pub fn check_writable(path: &Path) -> Result<(), FileError> {
     check(path).map_err(|reason| error(path, FileAction::Write, reason))
 }
 
+/// Most bytes that one stored byte of a compressed picture can expand to: 1032 by ZIP, a third more by
+/// PXR24, which stores three of four bytes, less by PIZ and run lengths.
+pub const EXPANSION: u64 = 1400;
+
+/// A header announces more than its file can hold, so the file is truncated or made to take the memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("{file_bytes} bytes cannot hold the {announced} that its header tells of")]
+pub struct ExpansionError {
+    /// Length of the file.
+    pub file_bytes: u64,
+    /// Bytes that the header announces, unpacked.
+    pub announced: u64,
+}
+
+/// Checks that a compressed file of `file_bytes` can hold the bytes that its header announces. Call this
+/// before you allocate memory for them.
+///
+/// # Errors
+/// [`ExpansionError`] if one stored byte would have to expand to more than [`EXPANSION`].
+pub fn check_expansion(announced: u64, file_bytes: u64) -> Result<(), ExpansionError> {
+    match announced <= EXPANSION.saturating_mul(file_bytes) {
+        true => Ok(()),
+        false => Err(ExpansionError { file_bytes, announced }),
+    }
+}
+
+/// Whether the system gives `bytes` of memory now, all at once. Call this before work that needs them, so that a limit
+/// such as `prlimit --as` ends it with words rather than in the allocator.
+#[must_use]
+pub fn has_memory(bytes: u64) -> bool {
+    let bytes = usize::try_from(bytes).unwrap_or(usize::MAX);
+    Vec::<u8>::new().try_reserve_exact(bytes).is_ok()
+}
+
 fn error(path: &Path, action: FileAction, reason: io::Error) -> FileError {
     FileError { path: path.to_owned(), action, reason: Arc::new(reason) }
 }

@@ -12,8 +12,7 @@ use moxcms::{
 };
 use png::{ColorType, Info};
 
-/// The first bytes of a PNG file.
-const SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
+use crate::picture_formats::PNG_SIGNATURE;
 
 /// Colours of a PNG file without an ICC profile and without the chunk `sRGB`. Its chunks `cICP`, or `gAMA` and
 /// `cHRM`, describe them.
@@ -32,7 +31,7 @@ impl DescribedColors {
     /// # Errors
     /// The reason, if we know the description but cannot convert from it.
     pub(crate) fn of_png(bytes: &[u8]) -> Result<Option<Self>, String> {
-        if !bytes.starts_with(SIGNATURE) {
+        if !bytes.starts_with(PNG_SIGNATURE) {
             return Ok(None);
         }
         let Ok(reader) = png::Decoder::new(Cursor::new(bytes)).read_info() else { return Ok(None) };

@@ -3,6 +3,7 @@
 
 use std::io::Cursor;
 
+use documents::file::check_expansion;
 use documents::hint::Explain;
 use exr::meta::MetaData;
 use exr::meta::attribute::Chromaticities;
@@ -63,6 +64,12 @@ pub fn linear_picture(name: &str, bytes: &[u8]) -> Result<Picture, ExrPictureErr
         if (width as u64).saturating_mul(height as u64) > MOST_PIXELS {
             return Err(ExrPictureError::TooLarge { name: name.to_owned(), width, height });
         }
+        let list = &header.channels.list;
+        let sample_bytes = list.iter().map(|channel| channel.sample_type.bytes_per_sample() as u64);
+        let announced = (width as u64 * height as u64).saturating_mul(sample_bytes.sum());
+        check_expansion(announced, bytes.len() as u64).map_err(|error| {
+            ExrPictureError::NoPicture { name: name.to_owned(), reason: error.to_string() }
+        })?;
     }
     let image = read()
         .no_deep_data()

@@ -4,7 +4,7 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use documents::file::{FileError, read};
+use documents::file::{FileError, has_memory, read};
 use documents::hint::Explain;
 use image::{
     ColorType, DynamicImage, ExtendedColorType, ImageBuffer, ImageDecoder, ImageFormat,
@@ -19,7 +19,9 @@ use tiff::tags::Tag;
 
 use crate::described_colors::DescribedColors;
 use crate::field::Field;
-use crate::picture_formats::{NAMES, damage_of_jpeg, is_cut_off_jpeg, is_of_inks};
+use crate::picture_formats::{
+    MOST_SIDE, NAMES, damage_of_jpeg, fault_of_profile, is_cut_off_jpeg, is_of_inks,
+};
 
 /// A picture in linear sRGB, white at 1, one colour per cell.
 pub type Picture = Field<[f32; 3]>;
@@ -65,6 +67,10 @@ impl Photograph {
         if is_cut_off_jpeg(bytes) {
             return Err(PhotographError::CutOff { name: name.to_owned(), bytes: bytes.len() });
         }
+        let refused = |reason| PhotographError::Profile { name: name.to_owned(), reason };
+        if let Some(reason) = fault_of_profile(bytes) {
+            return Err(refused(ProfileError::Unusable(reason)));
+        }
         let mut reader = ImageReader::new(Cursor::new(bytes))
             .with_guessed_format()
             .map_err(|error| rejected(error.into()))?;
@@ -76,7 +82,14 @@ impl Photograph {
         if u64::from(width) * u64::from(height) > MOST_PIXELS {
             return Err(PhotographError::TooLarge { name: name.to_owned(), width, height });
         }
-        let refused = |reason| PhotographError::Profile { name: name.to_owned(), reason };
+        if width.max(height) > MOST_SIDE {
+            return Err(PhotographError::TooLong { name: name.to_owned(), width, height });
+        }
+        // The decoded picture, and a row of it in f64.
+        let mb = (decoder.total_bytes() + 32 * u64::from(width)) >> 20;
+        if !has_memory(mb << 20) {
+            return Err(PhotographError::Memory { name: name.to_owned(), mb });
+        }
         let inks = [ExtendedColorType::Cmyk8, ExtendedColorType::Cmyk16];
         if inks.contains(&decoder.original_color_type()) || is_of_inks(bytes) {
             return Err(refused(ProfileError::Inks("CMYK".to_owned())));
@@ -316,6 +329,29 @@ pub enum PhotographError {
     #[error("{name}: a photograph has {MOST_PIXELS} pixels at most, found `{width} x {height}`")]
     #[hint("make it smaller; a canvas has fewer cells")]
     TooLarge {
+        /// Path of the file.
+        name: String,
+        /// Width in pixels.
+        width: u32,
+        /// Height in pixels.
+        height: u32,
+    },
+    /// The system does not give the memory that the picture needs.
+    #[error("{name}: the picture needs `{mb}` MB of memory, which the system does not give")]
+    #[hint("close other programs, or raise the limit of memory")]
+    #[fault(Environment)]
+    Memory {
+        /// Path of the file.
+        name: String,
+        /// Memory in MB.
+        mb: u64,
+    },
+    /// A side of the picture has more than [`MOST_SIDE`] pixels.
+    #[error(
+        "{name}: a photograph has {MOST_SIDE} pixels a side at most, found `{width} x {height}`"
+    )]
+    #[hint("cut it into parts, or make it smaller")]
+    TooLong {
         /// Path of the file.
         name: String,
         /// Width in pixels.

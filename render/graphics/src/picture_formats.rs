@@ -1,9 +1,11 @@
 //! Formats of pictures that we read: their names in messages, endings of file names and first
 //! bytes. Also checks for JPEG files that were cut off or damaged, because decoders paint the missing
-//! part grey.
+//! part grey, and for colour profiles that would fill the memory.
 
+use std::io::{self, Read};
 use std::path::Path;
 
+use flate2::read::ZlibDecoder;
 use image::ImageFormat;
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::bytestream::ZCursor;
@@ -28,6 +30,15 @@ pub fn begins_like_picture(bytes: &[u8]) -> bool {
     use ImageFormat::{Jpeg, Png, Tiff, WebP};
     matches!(image::guess_format(bytes), Ok(Png | Jpeg | Tiff | WebP))
 }
+
+/// Most pixels of a side of a picture: 2^16. Longer sides are stripes that a header makes up, and one row of
+/// them takes gigabytes.
+pub const MOST_SIDE: u32 = 1 << 16;
+
+/// First bytes of every PNG file.
+pub(crate) const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
+/// Most MB of an ICC profile. Those of presses with many inks take 4 MB.
+const MOST_PROFILE_MB: u64 = 16;
 
 /// First bytes of every JPEG file, which start the picture.
 const START: [u8; 2] = [0xff, 0xd8];
@@ -63,12 +74,63 @@ pub fn damage_of_jpeg(bytes: &[u8]) -> Option<String> {
     (!reason.contains(EXTRA_BYTES)).then_some(reason)
 }
 
-/// Why a JPEG file shows only a part of its picture: it is cut off, or damaged. You get `None` for other files,
-/// and for a JPEG file that is whole.
+/// Whether the ICC profile of a PNG file unpacks to more than any profile holds. We unpack it to its limit
+/// without keeping it.
+fn has_huge_profile(bytes: &[u8]) -> bool {
+    let Some(mut chunks) = bytes.strip_prefix(PNG_SIGNATURE) else { return false };
+    // A chunk is its length, its name, its data and a checksum (PNG Specification, section 5.3).
+    while let Some((head, rest)) = chunks.split_first_chunk::<8>() {
+        let length = u32::from_be_bytes([head[0], head[1], head[2], head[3]]) as usize;
+        match &head[4..] {
+            b"iCCP" => {
+                let data = &rest[..length.min(rest.len())];
+                // A name, a zero, the method of compression.
+                let Some(name) = data.iter().position(|byte| *byte == 0) else { return false };
+                let packed = data.get(name + 2..).unwrap_or_default();
+                let most = MOST_PROFILE_MB << 20;
+                let mut unpacked = ZlibDecoder::new(packed).take(most + 1);
+                let mut count = CountedBytes(0);
+                // A decoder reports a damaged profile.
+                let _ = io::copy(&mut unpacked, &mut count);
+                return count.0 > most;
+            }
+            b"IDAT" => return false,
+            _ => chunks = rest.get(length + 4..).unwrap_or_default(),
+        }
+    }
+    false
+}
+
+/// Counts what is written to it, also of a stream that ends in an error.
+struct CountedBytes(u64);
+
+impl io::Write for CountedBytes {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0 += bytes.len() as u64;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Why a PNG file would take the memory: its colour profile unpacks to more than 16 MB. You get `None` for
+/// other files.
+pub(crate) fn fault_of_profile(bytes: &[u8]) -> Option<String> {
+    has_huge_profile(bytes).then(|| format!("it unpacks to more than {MOST_PROFILE_MB} MB"))
+}
+
+/// Why we do not hand a file to its decoder: a JPEG file that is cut off or damaged shows only a part of its
+/// picture, and the colour profile of a PNG file can fill the memory. You get `None` for other files, and for
+/// files that are whole.
 #[must_use]
-pub fn fault_of_jpeg(bytes: &[u8]) -> Option<String> {
+pub fn fault_of_coding(bytes: &[u8]) -> Option<String> {
     if is_cut_off_jpeg(bytes) {
         return Some("the JPEG file is cut off: its end marker is missing".to_owned());
+    }
+    if let Some(reason) = fault_of_profile(bytes) {
+        return Some(format!("the colour profile cannot be used: {reason}"));
     }
     damage_of_jpeg(bytes).map(|reason| format!("the JPEG file is damaged: {reason}"))
 }
@@ -125,7 +187,33 @@ mod tests {
     use super::*;
     use crate::picture::Photograph;
     use image::codecs::jpeg::JpegEncoder;
+    use image::codecs::png::PngEncoder;
+    use image::{ExtendedColorType, ImageEncoder};
     use std::io::Cursor;
+
+    #[test]
+    fn profiles_that_fill_the_memory_are_refused() {
+        fn png(profile_bytes: usize) -> Vec<u8> {
+            let mut file = Vec::new();
+            let mut encoder = PngEncoder::new(&mut file);
+            encoder.set_icc_profile(vec![0; profile_bytes]).unwrap();
+            encoder.write_image(&[9; 12], 2, 2, ExtendedColorType::Rgb8).unwrap();
+            file
+        }
+        let most = (MOST_PROFILE_MB << 20) as usize;
+        assert_eq!(fault_of_coding(&png(most)), None, "as large as a profile may be");
+        let huge = png(most + 1);
+        assert!(huge.len() < 1 << 20, "a small file: {} bytes", huge.len());
+        let fault = fault_of_coding(&huge).unwrap();
+        assert_eq!(fault, "the colour profile cannot be used: it unpacks to more than 16 MB");
+        let error = Photograph::from_bytes("sky.png", &huge).unwrap_err().to_string();
+        let wanted = "sky.png: its colour profile cannot be used: it unpacks to more than 16 MB";
+        assert_eq!(error, wanted);
+        // A file that ends within any chunk is no reason to panic.
+        for length in 0..200 {
+            assert_eq!(fault_of_coding(&huge[..length]), None, "{length} bytes");
+        }
+    }
 
     #[test]
     fn each_ending_is_that_of_a_picture_that_is_known_by_its_bytes_and_read() {
@@ -197,7 +285,10 @@ mod tests {
             let mut broken = whole.clone();
             broken[at..at + 6].copy_from_slice(&[0xff, 0, 0xff, 0, 0xff, 0]);
             let damage = damage_of_jpeg(&broken).unwrap();
-            assert_eq!(fault_of_jpeg(&broken), Some(format!("the JPEG file is damaged: {damage}")));
+            assert_eq!(
+                fault_of_coding(&broken),
+                Some(format!("the JPEG file is damaged: {damage}"))
+            );
             let error = Photograph::from_bytes("a.jpg", &broken).unwrap_err().to_string();
             assert_eq!(error, format!("a.jpg: the JPEG file is damaged: {damage}"));
             // A marker of a frame has no place in coded data.

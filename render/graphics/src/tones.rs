@@ -4,7 +4,7 @@ use std::path::Path;
 
 use documents::hint::Explain;
 
-use crate::picture_formats::{NAMES, fault_of_jpeg};
+use crate::picture_formats::{MOST_SIDE, NAMES, fault_of_coding};
 
 /// Number of samples of a [`ToneRamp`], joined by straight lines.
 pub const TONES: usize = 256;
@@ -70,12 +70,16 @@ impl ToneRamp {
         }
         let bytes =
             documents::file::disk::read(path).map_err(|error| rejected(error.to_string(), path))?;
-        if let Some(fault) = fault_of_jpeg(&bytes) {
+        if let Some(fault) = fault_of_coding(&bytes) {
             return Err(rejected(fault, path));
         }
         let reader = image::ImageReader::new(std::io::Cursor::new(bytes));
-        let reader =
+        let mut reader =
             reader.with_guessed_format().map_err(|error| rejected(error.to_string(), path))?;
+        let mut limits = image::Limits::default();
+        limits.max_image_width = Some(MOST_SIDE);
+        limits.max_image_height = Some(MOST_SIDE);
+        reader.limits(limits);
         let picture =
             reader.decode().map_err(|error| rejected(error.to_string(), path))?.into_rgb16();
         let y = picture.height() / 2;

@@ -461,6 +461,24 @@ mod tests {
     }
 
     #[test]
+    fn comments_within_the_data_are_dropped() {
+        let text = FILE
+            .replace("BEGIN_DATA\n1", "BEGIN_DATA\n# 9 nine 0.9 0.9\n1")
+            .replace("0.1\n 0.2", "0.1 # of two\n# 7\n 0.2")
+            .replace("0.8 0.9", "0.8 0.9 # 1.0");
+        assert_eq!(text.matches('#').count(), FILE.matches('#').count() + 4, "{text}");
+        let values = |text: &str| -> Vec<(String, Vec<f64>)> {
+            let found = read("f", text).unwrap();
+            found.into_iter().map(|record| (record.name, record.values)).collect()
+        };
+        assert_eq!(values(&text), values(FILE));
+        // Within a word or quotes it is no comment.
+        let named = FILE.replace("white", "\"white # 2\"").replace("skin", "skin#3");
+        let names: Vec<String> = values(&named).into_iter().map(|(name, _)| name).collect();
+        assert_eq!(names, ["dark \"skin#3\"", "white # 2"]);
+    }
+
+    #[test]
     fn rows_of_one_name_are_told_apart_by_their_angle() {
         let text = "CGATS.17\nBEGIN_DATA_FORMAT\nSAMPLE_NAME ANGLE SPECTRAL_NM400 SPECTRAL_NM410\n\
             END_DATA_FORMAT\nBEGIN_DATA\nRed 15 0.1 0.1\nRed 45 0.2 0.2\nBlue 15 0.3 0.3\nEND_DATA\n";

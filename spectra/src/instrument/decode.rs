@@ -203,8 +203,11 @@ impl<'a> BinaryBytes<'a> {
     }
 }
 
-/// We unpack at most this many bytes of a file in an archive. Spectra are far smaller.
-const MOST_BYTES: u64 = 64 << 20;
+/// We unpack at most this many MB of a file in an archive, and of all files in a workbook. Spectra are far
+/// smaller.
+pub(super) const MOST_MB: usize = 64;
+/// [`MOST_MB`] in bytes.
+pub(super) const MOST_BYTES: usize = MOST_MB << 20;
 
 pub(super) struct Archive<'a> {
     file: &'a str,
@@ -228,17 +231,41 @@ impl<'a> Archive<'a> {
         self.archive.file_names().find(|name| is_wanted(name)).map(str::to_owned)
     }
 
+    /// The names of all files for which `is_wanted` holds.
+    pub(super) fn all(&self, is_wanted: impl Fn(&str) -> bool) -> Vec<String> {
+        let names = self.archive.file_names();
+        names.filter(|name| is_wanted(name)).map(str::to_owned).collect()
+    }
+
     pub(super) fn read(&mut self, name: &str) -> Result<Vec<u8>, InstrumentError> {
         let faulty = |fault: String| InstrumentError::faulty(self.file, "zip", fault);
         let entry = self.archive.by_name(name);
         let entry = entry.map_err(|_| faulty(format!("`{name}` cannot be unpacked")))?;
         let mut bytes = Vec::new();
-        let read = entry.take(MOST_BYTES + 1).read_to_end(&mut bytes);
+        let read = entry.take(MOST_BYTES as u64 + 1).read_to_end(&mut bytes);
         read.map_err(|_| faulty(format!("`{name}` cannot be unpacked")))?;
-        if bytes.len() as u64 > MOST_BYTES {
-            return Err(faulty(format!("`{name}` unpacks to more than {MOST_BYTES} bytes")));
+        if bytes.len() > MOST_BYTES {
+            return Err(faulty(format!("`{name}` unpacks to more than {MOST_MB} MB")));
         }
         Ok(bytes)
+    }
+
+    /// Whether all files together unpack to at most `most` bytes. We unpack them without keeping them, because
+    /// an archive may state any size. A file that cannot be unpacked counts up to its fault.
+    pub(super) fn fits(&mut self, most: usize) -> bool {
+        let mut left = most as u64;
+        let mut buffer = vec![0; 64 << 10];
+        for index in 0..self.archive.len() {
+            let Ok(entry) = self.archive.by_index(index) else { continue };
+            let mut entry = entry.take(left + 1);
+            while let Ok(count @ 1..) = entry.read(&mut buffer) {
+                match left.checked_sub(count as u64) {
+                    Some(rest) => left = rest,
+                    None => return false,
+                }
+            }
+        }
+        true
     }
 }
 
@@ -324,6 +351,19 @@ pub(super) mod tests {
         for length in 4..bytes.len() {
             assert!(Archive::open("f", &bytes[..length]).is_err(), "{length}");
         }
+    }
+
+    #[test]
+    fn a_file_unpacks_to_64_mb_at_most() {
+        let zeros = vec![0; (64 << 20) + 1];
+        let bytes = archive(&[("whole", &zeros[1..]), ("more", &zeros)]);
+        assert!(bytes.len() < 1 << 20, "a small archive: {} bytes", bytes.len());
+        let mut found = Archive::open("f", &bytes).unwrap();
+        assert_eq!(found.read("whole").unwrap().len(), 64 << 20);
+        let error = found.read("more").map(|bytes| bytes.len()).unwrap_err().to_string();
+        assert_eq!(error, "f: faulty zip file: `more` unpacks to more than 64 MB");
+        assert!(found.fits((128 << 20) + 1), "just as large");
+        assert!(!found.fits(128 << 20), "one byte more");
     }
 
     fn marked(mark: &[u8], bytes: &[u8]) -> Vec<u8> {

@@ -211,18 +211,23 @@ fn told_apart(
     rows: &[LongRow<'_>],
 ) -> Vec<(String, Vec<Point>)> {
     let mut found: Vec<(String, Vec<Point>)> = Vec::new();
+    let mut places: BTreeMap<String, usize> = BTreeMap::new();
+    let differ = (0..table.conditions.len())
+        .map(|at| rows.iter().any(|row| row.conditions[at] != rows[0].conditions[at]));
+    let differ: Vec<bool> = differ.collect();
     for row in rows {
         let mut own = name.to_owned();
-        for (at, (&column, value)) in table.conditions.iter().zip(&row.conditions).enumerate() {
-            let differs = rows.iter().any(|other| other.conditions[at] != *value);
-            if differs && !value.is_empty() {
+        for ((&column, value), differs) in table.conditions.iter().zip(&row.conditions).zip(&differ)
+        {
+            if *differs && !value.is_empty() {
                 own = with_condition(&own, table.headings[column], value);
             }
         }
-        match found.iter_mut().find(|(known, _)| *known == own) {
-            Some((_, points)) => points.push(row.point),
-            None => found.push((own, vec![row.point])),
+        let place = *places.entry(own.clone()).or_insert(found.len());
+        if place == found.len() {
+            found.push((own, Vec::new()));
         }
+        found[place].1.push(row.point);
     }
     found
 }

@@ -310,6 +310,17 @@ pub enum InstrumentError {
         /// Names of the sheets that are not empty.
         sheets: String,
     },
+    /// A workbook would take more memory than any table of spectra does.
+    #[error("{file}: {what} takes more than {most_mb} MB")]
+    #[hint("save the sheet that holds the spectra as CSV, without texts of other kinds")]
+    TooLarge {
+        /// Path of the file.
+        file: String,
+        /// The part that is too large.
+        what: String,
+        /// The limit in MB.
+        most_mb: usize,
+    },
     /// A line does not follow the format.
     #[error("{file}, line {line}: expected {expected}, found `{text}`")]
     Line {
@@ -440,6 +451,10 @@ impl InstrumentError {
         }
         let text = short.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
         Self::Line { file: file.to_owned(), line, expected, text }
+    }
+
+    pub(super) fn too_large(file: &str, what: impl Into<String>, most_mb: usize) -> Self {
+        Self::TooLarge { file: file.to_owned(), what: what.into(), most_mb }
     }
 
     pub(super) fn faulty(file: &str, format: &'static str, fault: impl Into<String>) -> Self {

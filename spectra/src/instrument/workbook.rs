@@ -2,11 +2,15 @@
 //!
 //! A cell keeps its row and column, so that messages name the places that you see in the sheet. For
 //! a formula we take the value that the spreadsheet program stored.
+//!
+//! A small workbook can hold much: what it unpacks to, its cells and the text of its sheet take at most 64 MB
+//! each.
 
 use std::io::Cursor;
 
 use calamine::{DataRef, DataType, Reader, Xlsx};
 
+use super::decode::{Archive, MOST_BYTES, MOST_MB};
 use super::measured::InstrumentError;
 use documents::file::split_file_and_sheet;
 use documents::name_list;
@@ -15,9 +19,10 @@ const FORMAT: &str = "Excel workbook";
 
 /// We read at most this many columns. No instrument has so many wavelengths.
 const MOST_COLUMNS: u32 = 8192;
+/// Rows of a sheet, as spreadsheet programs have them.
+const MOST_ROWS: u32 = 1 << 20;
 /// An error lists at most this many names of sheets.
 const NAMES: usize = 12;
-const MOST_BYTES: usize = 512 << 20;
 
 #[derive(Debug, PartialEq)]
 pub(super) struct Sheet {
@@ -44,9 +49,21 @@ struct Cell {
 pub(super) fn sheet(file: &str, bytes: &[u8]) -> Result<Sheet, InstrumentError> {
     let (file, wanted) = split_file_and_sheet(file);
     let faulty = |fault: String| InstrumentError::faulty(file, FORMAT, fault);
+    let archive = Archive::open(file, bytes);
+    let mut archive = archive.map_err(|_| faulty("its directory is missing".to_owned()))?;
+    if !archive.fits(MOST_BYTES) {
+        return Err(InstrumentError::too_large(file, "the workbook, unpacked,", MOST_MB));
+    }
+    for name in archive.all(|name| name.to_ascii_lowercase().ends_with("sharedstrings.xml")) {
+        let strings = count_strings(&archive.read(&name)?);
+        if strings.saturating_mul(size_of::<String>()) > MOST_BYTES {
+            return Err(InstrumentError::too_large(file, "the list of its texts", MOST_MB));
+        }
+    }
     let mut workbook: Xlsx<_> =
         Xlsx::new(Cursor::new(bytes)).map_err(|reason| faulty(reason.to_string()))?;
     let mut sheets = Vec::new();
+    let mut left = MOST_BYTES;
     for name in workbook.sheet_names() {
         // A sheet of charts has no cells.
         let Ok(mut reader) = workbook.worksheet_cells_reader(&name) else { continue };
@@ -60,7 +77,16 @@ pub(super) fn sheet(file: &str, bytes: &[u8]) -> Result<Sheet, InstrumentError> 
                 let fault = format!("sheet `{name}`: more than {MOST_COLUMNS} columns");
                 return Err(faulty(fault));
             }
+            if row >= MOST_ROWS {
+                return Err(faulty(format!("sheet `{name}`: more than {MOST_ROWS} rows")));
+            }
             if let Some(content) = content(cell.get_value()) {
+                let text_bytes = if let Content::Text(text) = &content { text.len() } else { 0 };
+                let Some(rest) = left.checked_sub(size_of::<Cell>() + text_bytes) else {
+                    let what = format!("the cells up to row {} of sheet `{name}`", row + 1);
+                    return Err(InstrumentError::too_large(file, what, MOST_MB));
+                };
+                left = rest;
                 cells.push(Cell { row, column, content });
             }
         }
@@ -84,9 +110,37 @@ pub(super) fn sheet(file: &str, bytes: &[u8]) -> Result<Sheet, InstrumentError> 
         });
     };
     let (name, cells) = sheets.remove(chosen);
-    let text = text(cells);
-    let text = text.ok_or_else(|| faulty(format!("sheet `{name}` is too large")))?;
+    let Some(text) = text(cells) else {
+        let what = format!("the text of sheet `{name}`");
+        return Err(InstrumentError::too_large(file, what, MOST_MB));
+    };
     Ok(Sheet { name, text, others: sheets.into_iter().map(|(name, _)| name).collect() })
+}
+
+/// Number of texts that cells share: those that the list holds, or as many as it announces, for which the reader
+/// takes memory at once. We look at bytes, so that we see elements that a damaged encoding hides.
+fn count_strings(list: &[u8]) -> usize {
+    let mut count = 0;
+    let mut announced = 0;
+    for element in list.split(|byte| *byte == b'<') {
+        let name = element.split(|byte| b"/> \t\r\n".contains(byte)).next().unwrap_or_default();
+        match name.rsplit(|byte| *byte == b':').next() {
+            Some(b"si") => count += 1,
+            Some(b"sst") => announced = announced.max(announced_count(element)),
+            _ => {}
+        }
+    }
+    count.max(announced)
+}
+
+/// The number in the attribute `uniqueCount`, 0 without it.
+fn announced_count(element: &[u8]) -> usize {
+    let name = b"uniqueCount";
+    let Some(at) = element.windows(name.len()).position(|window| window == name) else { return 0 };
+    let digits = element[at + name.len()..].iter().skip_while(|byte| !byte.is_ascii_digit());
+    digits.take_while(|byte| byte.is_ascii_digit()).fold(0, |number: usize, digit| {
+        number.saturating_mul(10).saturating_add(usize::from(digit - b'0'))
+    })
 }
 
 fn count_numbers((_, cells): &(String, Vec<Cell>)) -> usize {
@@ -126,6 +180,10 @@ fn text(mut cells: Vec<Cell>) -> Option<String> {
     });
     // Rows of one width, so that empty cells at their ends are not missing.
     let width = cells.iter().map(|cell| cell.column).max().unwrap_or(0);
+    let rows = cells.chunk_by(|a, b| a.row == b.row).count();
+    if rows.saturating_mul(width as usize) > MOST_BYTES {
+        return None;
+    }
     let mut text = String::new();
     let mut row = 0;
     let mut column = 0;
@@ -164,6 +222,7 @@ fn text(mut cells: Vec<Cell>) -> Option<String> {
 pub(super) mod tests {
     use super::super::decode::tests::archive;
     use super::*;
+    use documents::hint::Explain;
 
     /// A workbook with sheets of this name and XML of rows.
     pub(in super::super) fn workbook(sheets: &[(&str, &str)]) -> Vec<u8> {
@@ -238,6 +297,58 @@ pub(super) mod tests {
         assert_eq!(error, "a.xlsx: no sheet is called `red`; its sheets are Readings, Red # 2");
         assert_eq!(split_file_and_sheet("a#b.csv"), ("a#b.csv", None));
         assert_eq!(split_file_and_sheet("a.xlsx#"), ("a.xlsx#", None));
+    }
+
+    /// The workbook `sheets` with another list of texts.
+    fn with_strings(sheets: &[(&str, &str)], strings: &[u8]) -> Vec<u8> {
+        let bytes = workbook(sheets);
+        let mut archived = Archive::open("f", &bytes).unwrap();
+        let mut names = vec!["_rels/.rels".to_owned(), "xl/workbook.xml".to_owned()];
+        names.push("xl/_rels/workbook.xml.rels".to_owned());
+        names.extend((1..=sheets.len()).map(|id| format!("xl/worksheets/sheet{id}.xml")));
+        let mut files: Vec<(String, Vec<u8>)> = names
+            .into_iter()
+            .map(|name| {
+                let content = archived.read(&name).unwrap();
+                (name, content)
+            })
+            .collect();
+        files.push(("xl/sharedStrings.xml".to_owned(), strings.to_vec()));
+        let files: Vec<(&str, &[u8])> =
+            files.iter().map(|(name, text)| (name.as_str(), &text[..])).collect();
+        archive(&files)
+    }
+
+    #[test]
+    fn workbooks_take_64_mb_at_most() {
+        fn is_refused(bytes: &[u8], wanted: &str) {
+            assert!(bytes.len() < 1 << 20, "a small file: {} bytes", bytes.len());
+            let error = sheet("some.xlsx", bytes).unwrap_err();
+            assert_eq!(error.to_string(), format!("some.xlsx: {wanted} takes more than 64 MB"));
+            assert!(error.hint().unwrap().to_string().contains("save the sheet"), "{error}");
+        }
+        // Many cells that share one long text.
+        let shared = format!("<sst><si><t>{}</t></si></sst>", "a".repeat(1 << 20));
+        let cells =
+            (1..=100).map(|row: u32| format!("<row r=\"{row}\"><c t=\"s\"><v>0</v></c></row>"));
+        let bytes = with_strings(&[("A", &cells.collect::<String>())], shared.as_bytes());
+        is_refused(&bytes, "the cells up to row 64 of sheet `A`");
+        // Lists of texts that are long, or announce to be.
+        let list = format!("<sst>{}</sst>", "<si/>".repeat(3_000_000));
+        is_refused(&with_strings(&[("A", ROWS)], list.as_bytes()), "the list of its texts");
+        let list = "<sst uniqueCount=\"9999999999999999\"><si><t>Red</t></si></sst>";
+        is_refused(&with_strings(&[("A", ROWS)], list.as_bytes()), "the list of its texts");
+        // One text of 64 MB.
+        let long = [b"<sst><si><t>".to_vec(), vec![b'a'; 64 << 20], b"</t></si></sst>".to_vec()];
+        is_refused(&with_strings(&[("A", ROWS)], &long.concat()), "the workbook, unpacked,");
+        // Few cells that span many rows and columns.
+        let spread = (1..=20_000).map(|row: u32| format!("<row r=\"{row}\"><c><v>1</v></c></row>"));
+        let spread =
+            spread.collect::<String>() + "<row r=\"20001\"><c r=\"EZZ20001\"><v>1</v></c></row>";
+        is_refused(&workbook(&[("A", &spread)]), "the text of sheet `A`");
+        let last = "<row r=\"1048577\"><c r=\"A1048577\"><v>1</v></c></row>";
+        let error = sheet("some.xlsx", &workbook(&[("A", last)])).unwrap_err().to_string();
+        assert!(error.contains("sheet `A`"), "{error}");
     }
 
     #[test]

@@ -715,6 +715,8 @@ mod tests {
         assert_eq!(ceiling(&[1.0, 65535.0, 2.0], None), Some(65535.0));
         assert_eq!(ceiling(&[1.0, 900.0, 900.0, 900.0, 900.0, 2.0], None), Some(900.0));
         assert_eq!(ceiling(&[1.0, 950.0, 900.0, 960.0], Some(940.0)), Some(940.0));
+        assert_eq!(ceiling(&[1.0, 940.0, 900.0], Some(940.0)), Some(940.0), "reached");
+        assert_eq!(ceiling(&[1.0, 940.0, 900.0], Some(940.1)), None, "not reached");
     }
 
     #[test]

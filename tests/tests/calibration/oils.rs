@@ -14,7 +14,10 @@ use calibrate::matching::{MatchError, MatchRequest};
 use calibrate::measurement::MeasurementError;
 use calibrate::observation::{BelowSurface, Hiding, observations};
 use calibrate::plan::{PlanError, PlanRequest};
-use calibrate::quadrature::{EffectiveQuadrature, MixtureSet, Quadrature, QuadratureFailure};
+use calibrate::quadrature::{
+    EffectiveQuadrature, MixtureSet, Quadrature, QuadratureChoice, QuadratureFailure,
+    QuadratureRequest,
+};
 use calibrate::validation::{ValidationPlan, leave_out_samples};
 use calibrate::{
     FitRequest, FittingError, LeaveOut, PigmentId, PreparedFit, Readings, ValidationRequest,
@@ -286,6 +289,24 @@ fn none_or_too_many_wavelengths_are_refused() {
     for count in [0, 33] {
         let refused = Quadrature::gauss(&Viewing::default(), count).unwrap_err();
         assert_eq!(refused, QuadratureFailure::Count(count));
+    }
+}
+
+#[test]
+fn more_mixtures_than_memory_holds_are_refused() {
+    let library = library();
+    for method in [QuadratureChoice::Moments, QuadratureChoice::Effective] {
+        let request = QuadratureRequest {
+            method: Some(method),
+            nodes: 2,
+            mixtures: 100_001,
+            ..QuadratureRequest::default()
+        };
+        let refused = request.run(Some(&library), &Task::default()).unwrap_err();
+        assert_eq!(refused, QuadratureFailure::Mixtures(100_001));
+        let words = format!("{refused}; {}", refused.hint().unwrap());
+        let wanted = "at most 100000 random mixtures are drawn, found `100001`; ";
+        assert!(words.starts_with(wanted) && words.contains("mixtures"), "{words}");
     }
 }
 

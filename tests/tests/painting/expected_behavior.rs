@@ -170,10 +170,17 @@ fn a_brush_takes_what_it_can_hold_and_refuses_more() {
     }
     assert_eq!(painting.brush_paint(brush).unwrap().totals(), clear, "a refused load changed it");
     let most_mm = most_load_mm(&mut painting, brush);
-    assert!(painting.load(brush, &two, 0.0, most_mm * 1.001).is_err(), "more than {most_mm} mm");
     painting.load(brush, &two, 0.0, most_mm * 0.999).unwrap();
     let left_mm = most_load_mm(&mut painting, brush);
     assert!(left_mm < 0.002 * most_mm, "{left_mm} of {most_mm} mm");
+    // A load that a clean brush could hold fills it.
+    let before = painting.brush_paint(brush).unwrap().totals();
+    painting.load(brush, &two, 0.0, 0.5 * most_mm).unwrap();
+    let full = painting.brush_paint(brush).unwrap().totals();
+    assert!(full[0] > before[0] && full[1] > before[1], "{before:?} to {full:?}");
+    assert!(most_load_mm(&mut painting, brush) < 1e-6 * most_mm, "full");
+    painting.load(brush, &two, 0.0, 0.5 * most_mm).unwrap();
+    assert_eq!(painting.brush_paint(brush).unwrap().totals(), full, "no room is left");
 }
 
 #[test]

@@ -305,7 +305,7 @@ fn what_cannot_be_is_told_as_in_a_script() {
     let (error, _) = refusal(load("flat", "Lead White", f64::NAN));
     assert_eq!(error, "amount_mm: 0 to 100, found `NaN`");
     let (error, hint) = refusal(load("flat", "Lead White", 99.0));
-    assert!(error.contains("has room for") && hint.contains("wipe"), "{error} {hint}");
+    assert!(error.contains("has room for") && hint.contains("larger cells"), "{error} {hint}");
     let (error, _) = refusal(Action::Save { path: "a.exr".to_owned() });
     assert_eq!(error, "a session does not save files");
     let mut samples = along(&[(1.0, 1.0), (9.0, 9.0)], 0.5);

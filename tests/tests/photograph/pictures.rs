@@ -4,6 +4,7 @@
 use std::io::Cursor;
 
 use documents::hint::{Explain, Fault};
+use graphics::picture_formats::MOST_SIDE;
 use image::codecs::jpeg::JpegEncoder;
 use image::codecs::png::PngEncoder;
 use image::codecs::webp::WebPEncoder;
@@ -139,14 +140,26 @@ fn a_broken_file_is_refused_by_its_name() {
 
 #[test]
 fn too_many_pixels_are_refused_before_they_are_read() {
-    // The header of this PNG claims 20000 x 20000 pixels, but there is data for one.
-    let whole = png(GrayImage::from_pixel(1, 1, [0].into()));
-    let mut head = whole[..29].to_vec();
-    head[16..20].copy_from_slice(&20_000_u32.to_be_bytes());
-    head[20..24].copy_from_slice(&20_000_u32.to_be_bytes());
-    head.extend(crc(&head[12..29]).to_be_bytes());
-    head.extend(&whole[33..]);
-    let error = Photograph::from_bytes("wall.png", &head).unwrap_err();
+    // The headers of these PNG files claim many pixels, but there is data for one.
+    fn claiming(width: u32, height: u32) -> Vec<u8> {
+        let whole = png(GrayImage::from_pixel(1, 1, [0].into()));
+        let mut head = whole[..29].to_vec();
+        head[16..20].copy_from_slice(&width.to_be_bytes());
+        head[20..24].copy_from_slice(&height.to_be_bytes());
+        head.extend(crc(&head[12..29]).to_be_bytes());
+        head.extend(&whole[33..]);
+        head
+    }
+    for (width, height) in [(134_000_000, 1), (1, MOST_SIDE + 1)] {
+        let error = Photograph::from_bytes("wall.png", &claiming(width, height)).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            format!(
+                "wall.png: a photograph has {MOST_SIDE} pixels a side at most, found `{width} x {height}`"
+            )
+        );
+    }
+    let error = Photograph::from_bytes("wall.png", &claiming(20_000, 20_000)).unwrap_err();
     assert!(matches!(error, PhotographError::TooLarge { .. }), "{error}");
     let message =
         format!("wall.png: a photograph has {MOST_PIXELS} pixels at most, found `20000 x 20000`");

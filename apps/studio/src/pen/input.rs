@@ -15,10 +15,10 @@ use super::pen_stroke::{Handling, PenStroke, brush_sample};
 use super::pointer::Pointer;
 use super::report::{Device, PointerState, Report, ReportKind};
 use super::settings::PenSettings;
-#[cfg(not(target_arch = "wasm32"))]
+#[cfg(any(target_os = "linux", windows))]
 use super::systems::Systems;
 use super::transform::{PenTargets, SurfaceTransform};
-#[cfg(target_arch = "wasm32")]
+#[cfg(not(any(target_os = "linux", windows)))]
 use super::web::Systems;
 
 /// A stylus counts as near for this time after its last report. The window system reports a stylus

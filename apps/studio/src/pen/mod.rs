@@ -15,7 +15,7 @@ mod stabiliser;
 mod aids;
 mod pen_stroke;
 
-#[cfg(not(target_arch = "wasm32"))]
+#[cfg(any(target_os = "linux", windows))]
 mod systems;
 mod web;
 mod input;

@@ -200,19 +200,19 @@ pub(super) fn filled(known: &[Option<Instant>], from: Instant, to: Instant) -> V
 }
 
 /// If a timestamp maps to an instant further in the past than this, it belongs to another clock.
-#[cfg(not(target_arch = "wasm32"))]
+#[cfg(any(test, target_os = "linux", windows))]
 const STALE: Duration = Duration::from_secs(5);
 
 /// Converts timestamps to instants. The report with the smallest delay so far defines the offset
 /// between the two clocks, so time in a queue does not distort the times of a stroke.
 #[derive(Debug, Default)]
-#[cfg(not(target_arch = "wasm32"))]
+#[cfg(any(test, target_os = "linux", windows))]
 pub(super) struct StampClock {
     /// The last timestamp in ms and its instant.
     last: Option<(u32, Instant)>,
 }
 
-#[cfg(not(target_arch = "wasm32"))]
+#[cfg(any(test, target_os = "linux", windows))]
 impl StampClock {
     /// Returns the instant of the timestamp `stamp_ms` (wraps at 2^32) of an event that you
     /// received at `arrived`. The result is never later than `arrived`.

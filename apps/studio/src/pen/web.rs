@@ -8,14 +8,14 @@
 use web_time::Instant;
 
 use eframe::egui::Pos2;
-#[cfg(target_arch = "wasm32")]
+#[cfg(not(any(target_os = "linux", windows)))]
 use eframe::egui::{Context, RawInput};
 
-#[cfg(target_arch = "wasm32")]
+#[cfg(not(any(target_os = "linux", windows)))]
 use super::report::Stamp;
 use super::report::{Device, PointerState, Report, ReportKind};
 use crate::language::tr;
-#[cfg(target_arch = "wasm32")]
+#[cfg(not(any(target_os = "linux", windows)))]
 use web_time::Duration;
 
 /// The pressure that a browser reports for a stylus without pressure.
@@ -139,18 +139,23 @@ impl PagePens {
     }
 }
 
-/// The styluses of a page. The page passes their reports to [`Pen::feed`](super::Pen::feed), so
-/// this has none.
-#[cfg(target_arch = "wasm32")]
+/// The styluses of a page, which passes their reports to [`Pen::feed`](super::Pen::feed), and of macOS, where
+/// styluses act as mice. So this has none.
+#[cfg(not(any(target_os = "linux", windows)))]
 #[derive(Debug, Default)]
 pub(super) struct Systems {
     /// Always `None` here.
     pub(super) notice: Option<String>,
 }
 
-#[cfg(target_arch = "wasm32")]
+#[cfg(not(any(target_os = "linux", windows)))]
 #[expect(clippy::unused_self, reason = "the calls of the other window systems")]
 impl Systems {
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(super) fn for_window(_: &eframe::CreationContext<'_>) -> Self {
+        Self::default()
+    }
+
     pub(super) fn reports(&mut self, _: &Context, _: &mut RawInput) -> Vec<Report> {
         Vec::new()
     }

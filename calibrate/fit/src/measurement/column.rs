@@ -2,6 +2,8 @@
 //!
 //! We find here the column of names, and the columns of colours and notes, which we skip.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use spectra::csv_table::{CellPlace, CsvTableError, wavelength_of_header};
 use spectra::headings::{self, condition, is_wavelength, name_rank, plain, without_unit};
 
@@ -55,6 +57,9 @@ pub(super) fn columns(
         });
     let names: Vec<&str> = headers.iter().map(|header| header.trim()).collect();
     let sample = name_column(&names, is_wavelength_heading);
+    let coordinates = coordinates_of(headers);
+    let listed_names: Option<BTreeSet<&str>> =
+        pigments.map(|names| names.iter().map(String::as_str).collect());
     let has_included = names.iter().any(|name| has_word(name, "sci"));
     let mut columns = Vec::with_capacity(headers.len());
     for (index, &name) in names.iter().enumerate() {
@@ -81,8 +86,8 @@ pub(super) fn columns(
         }
         // `Red [%]` and `Red (g)` are the pigment Red.
         let bare = without_unit(name).0;
-        let is_listed = |names: &[String]| names.iter().any(|own| own == name || own == bare);
-        let listed = pigments.map(is_listed);
+        let listed =
+            listed_names.as_ref().map(|names| names.contains(name) || names.contains(bare));
         let column = match column(name, letters) {
             _ if kind == TableKind::Recipes && is_reading(name) => Column::Reading,
             // Readings without the specular component beside those with it are other readings.
@@ -94,13 +99,13 @@ pub(super) fn columns(
             | Column::Wavelength(_)
                 if listed == Some(true) =>
             {
-                let own = pigments.into_iter().flatten().find(|own| *own == name);
-                Column::Pigment(own.map_or(bare, String::as_str).to_owned())
+                let is_own = listed_names.as_ref().is_some_and(|names| names.contains(name));
+                Column::Pigment(if is_own { name } else { bare }.to_owned())
             }
             Column::Pigment(_) if listed == Some(false) || kind == TableKind::Spectra => {
                 Column::Ignored
             }
-            Column::Pigment(_) if is_coordinate(headers, index) => Column::Ignored,
+            Column::Pigment(_) if coordinates.contains(&index) => Column::Ignored,
             column => column,
         };
         columns.push(column);
@@ -190,6 +195,8 @@ fn check_repeated(
     columns: &[Column],
 ) -> Result<(), MeasurementError> {
     let mut first_unit: Option<(usize, String)> = None;
+    let mut names: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut others: Vec<(&Column, usize)> = Vec::new();
     for (index, column) in columns.iter().enumerate() {
         match column {
             Column::Ignored
@@ -199,7 +206,14 @@ fn check_repeated(
             | Column::Outside(_) => continue,
             _ => {}
         }
-        if let Some(first) = columns[..index].iter().position(|before| before == column) {
+        let first = if let Column::Pigment(name) = column {
+            names.insert(name, index)
+        } else {
+            let first = others.iter().find(|(other, _)| *other == column).map(|(_, first)| *first);
+            others.push((column, index));
+            first
+        };
+        if let Some(first) = first {
             return Err(MeasurementError::RepeatedColumn {
                 place: place(index),
                 first: first + 1,
@@ -535,26 +549,26 @@ const COORDINATES: [&[&str]; 7] = [
     &["R", "G", "B"],
 ];
 
-/// Whether the heading at `index` is a coordinate of a colour space, and the table has others of this
-/// space.
-pub(super) fn is_coordinate(headings: &[String], index: usize) -> bool {
+/// Places of the headings that are coordinates of a colour space of which the table has several.
+fn coordinates_of(headings: &[String]) -> BTreeSet<usize> {
     // Some programs number what occurs twice: L, a, b, L2, c, h.
-    let bare = |heading: &str| -> String {
-        heading.trim().trim_end_matches(['2', '3', '.', '*', '\u{b0}']).to_owned()
-    };
-    let has = |name: &str| headings.iter().any(|heading| bare(heading) == name);
-    let own = bare(&headings[index]);
-    COORDINATES.iter().any(|set| {
-        set.contains(&own.as_str())
-            && has(set[0])
-            && set.iter().filter(|name| has(name)).count() > 1
-    })
+    let bare = headings
+        .iter()
+        .map(|heading| heading.trim().trim_end_matches(['2', '3', '.', '*', '\u{b0}']));
+    let bare: Vec<&str> = bare.collect();
+    let all: BTreeSet<&str> = bare.iter().copied().collect();
+    let sets = COORDINATES.iter().filter(|set| {
+        all.contains(set[0]) && set.iter().filter(|name| all.contains(*name)).count() > 1
+    });
+    let names: BTreeSet<&str> = sets.flat_map(|set| set.iter().copied()).collect();
+    (0..bare.len()).filter(|at| names.contains(bare[*at])).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use spectra::headings::is_guessed_name;
+    use std::time::Instant;
 
     #[test]
     fn headers_of_wavelengths_are_read_in_every_spelling() {
@@ -567,6 +581,19 @@ mod tests {
         assert_eq!(column("Red Ochre", true), Column::Pigment("Red Ochre".into()));
         assert_eq!(column("PB29", true), Column::Pigment("PB29".into()));
         assert_eq!(column("99999", true), Column::Outside(99999.0));
+    }
+
+    #[test]
+    fn many_pigments_take_time_in_proportion() {
+        let started = Instant::now();
+        let pigments: String = (0..100_000).map(|at| format!(",Paint {at} (g)")).collect();
+        let found = columns_of(&format!("Name{pigments},400,500"), TableKind::Readings).unwrap();
+        assert_eq!(found[100_000], Column::Pigment("Paint 99999".into()));
+        let twice = format!("Name{pigments},Paint 7,400,500");
+        let error = columns_of(&twice, TableKind::Readings).unwrap_err();
+        assert!(error.contains("occurs twice, as column number 9 and 100002"), "{error}");
+        // Where every heading is searched among all before, it takes more than half a minute.
+        assert!(started.elapsed().as_secs() < 10, "{:?}", started.elapsed());
     }
 
     #[test]

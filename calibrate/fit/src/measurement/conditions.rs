@@ -7,15 +7,7 @@ use std::path::Path;
 use documents::{counted, counted_as};
 use spectra::headings::{ConditionKind, condition, with_condition};
 
-use super::table::{Film, MeasurementTable, Reading};
-
-/// One film: sample, kind of surface, backing, and thickness in bits.
-type FilmKey<'a> = (&'a str, bool, &'a str, Option<u64>);
-
-fn film(reading: &Reading) -> FilmKey<'_> {
-    let thickness = reading.thickness_mm.map(f64::to_bits);
-    (&reading.sample, reading.film == Film::None, &reading.backing, thickness)
-}
+use super::table::{Film, FilmKey, MeasurementTable, Reading, film};
 
 /// Samples that were told apart by the columns of their conditions.
 #[derive(Debug, Clone, PartialEq, Eq)]

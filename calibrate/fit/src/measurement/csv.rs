@@ -1,6 +1,7 @@
 //! Reads a measurement CSV. We read a large one in pieces, so that only the readings are in memory
 //! at once.
 
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -224,7 +225,8 @@ impl LargeCsv {
             }
             // Fewer rows do not show which columns are pigments.
             if pigments.is_empty() || part.readings.len() >= LEAST_ROWS {
-                let new = part.pigments.into_iter().filter(|name| !pigments.contains(name));
+                let known: BTreeSet<&String> = pigments.iter().collect();
+                let new = part.pigments.into_iter().filter(|name| !known.contains(name));
                 let new: Vec<String> = new.collect();
                 pigments.extend(new);
             }

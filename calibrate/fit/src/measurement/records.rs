@@ -1,6 +1,6 @@
 //! Spectra of an instrument's file as readings of paint.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use spectra::Grid;
 use spectra::instrument::{MeasuredQuantity, MeasuredSpectrum, Role, Unit};
@@ -158,12 +158,20 @@ fn reflectances<'a>(
     for record in others.into_iter().filter(|record| record.role == Role::Main) {
         remarks.push(format!("{} is left out, it is {}", name(&record.name), record.quantity));
     }
+    // Records with each remark.
+    let mut counts: BTreeMap<&String, usize> = BTreeMap::new();
+    for record in &kept {
+        for remark in record.remarks.iter().collect::<BTreeSet<_>>() {
+            *counts.entry(remark).or_default() += 1;
+        }
+    }
+    let mut told: BTreeSet<String> = remarks.iter().cloned().collect();
     for record in &kept {
         for remark in &record.remarks {
-            let of_all = kept.iter().all(|record| record.remarks.contains(remark));
+            let of_all = counts[remark] == kept.len();
             let text =
                 if of_all { remark.clone() } else { format!("{}: {remark}", name(&record.name)) };
-            if !remarks.contains(&text) {
+            if told.insert(text.clone()) {
                 remarks.push(text);
             }
         }

@@ -1,5 +1,6 @@
 //! Readings of paint and of bare backings on one grid, and means of repeated readings.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use documents::hint::Explain;
@@ -104,11 +105,13 @@ impl MeasurementTable {
                 });
             }
             stated.extend(table.geometry.take());
+            let mut known: BTreeMap<String, usize> =
+                all.pigments.iter().cloned().zip(0..).collect();
             let places: Vec<usize> = table
                 .pigments
                 .iter()
                 .map(|name| {
-                    all.pigments.iter().position(|known| known == name).unwrap_or_else(|| {
+                    *known.entry(name.clone()).or_insert_with(|| {
                         all.pigments.push(name.clone());
                         all.pigments.len() - 1
                     })
@@ -175,15 +178,19 @@ impl MeasurementTable {
     #[must_use]
     pub fn averaged(&self) -> AveragedSpectra {
         let mut groups: Vec<Vec<&Reading>> = Vec::new();
+        let mut places: BTreeMap<FilmKey<'_>, usize> = BTreeMap::new();
+        let mut films: BTreeMap<&str, usize> = BTreeMap::new();
         for reading in &self.readings {
-            match groups.iter_mut().find(|group| is_same_film(group[0], reading)) {
-                Some(group) => group.push(reading),
-                None => groups.push(vec![reading]),
+            let place = *places.entry(film(reading)).or_insert(groups.len());
+            if place == groups.len() {
+                groups.push(Vec::new());
+                *films.entry(&reading.sample).or_default() += 1;
             }
+            groups[place].push(reading);
         }
         let spectra = groups.iter().map(|group| {
             let first = group[0];
-            let alone = groups.iter().filter(|other| other[0].sample == first.sample).count() == 1;
+            let alone = films[first.sample.as_str()] == 1;
             let name = match (alone, first.film) {
                 (true, _) => first.sample.clone(),
                 (_, Film::None) => format!("{} bare {}", first.sample, first.backing),
@@ -202,9 +209,12 @@ impl MeasurementTable {
     }
 }
 
-pub(super) fn is_same_film(a: &Reading, b: &Reading) -> bool {
-    (&a.sample, a.film, &a.backing, a.thickness_mm)
-        == (&b.sample, b.film, &b.backing, b.thickness_mm)
+/// One film: sample, kind of surface, backing, and thickness in bits.
+pub(super) type FilmKey<'a> = (&'a str, bool, &'a str, Option<u64>);
+
+pub(super) fn film(reading: &Reading) -> FilmKey<'_> {
+    let thickness = reading.thickness_mm.map(f64::to_bits);
+    (&reading.sample, reading.film == Film::None, &reading.backing, thickness)
 }
 
 impl AveragedSpectra {

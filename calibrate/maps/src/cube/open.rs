@@ -12,6 +12,7 @@ use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::{Path, PathBuf};
 
+use documents::file::check_expansion;
 use exr::block::chunk::TileCoordinates;
 use exr::block::lines::LineRef;
 use exr::block::reader::ChunksReader;
@@ -306,6 +307,7 @@ fn open_exr(path: &Path, options: &CubeOptions) -> Result<Opened, CubeError> {
         other => CubeError::data(path, format!("cannot be unpacked: {other}"), "export it again"),
     };
     let file = File::open(path).map_err(|reason| CubeError::reading(path, reason))?;
+    let file_bytes = file.metadata().map_err(|reason| CubeError::reading(path, reason))?.len();
     let reader = exr::block::read(BufReader::new(file), false).map_err(fault)?;
     let Some((layer, found)) = channels(reader.meta_data()) else {
         return Err(CubeError::format(
@@ -327,6 +329,13 @@ fn open_exr(path: &Path, options: &CubeOptions) -> Result<Opened, CubeError> {
         let problem = "has channels of a lower resolution";
         return Err(CubeError::format(path, problem, "export all channels at one resolution"));
     }
+    // A block is unpacked with all its channels, also those that are left out.
+    let announced = (samples as u64).saturating_mul(lines as u64).saturating_mul(
+        list.iter().map(|channel| channel.sample_type.bytes_per_sample() as u64).sum(),
+    );
+    check_expansion(announced, file_bytes).map_err(|error| {
+        CubeError::data(path, format!("is damaged: {error}"), "export it again")
+    })?;
     let places: BTreeMap<usize, usize> =
         found.iter().enumerate().map(|(band, (channel, _))| (*channel, band)).collect();
     let size = (lines, samples, found.len());

@@ -432,6 +432,24 @@ mod tests {
     }
 
     #[test]
+    fn a_band_beside_a_gap_needs_two_values_or_one_at_its_wavelength() {
+        let nm = [400.0, 410.0, 420.0, 460.0, 470.0];
+        let centers = [425.0, 430.0, 440.0, 450.0, 455.0];
+        let found = rows(&nm, &centers, 20.0);
+        let known: Vec<bool> = found.iter().map(Option::is_some).collect();
+        assert_eq!(known, [true, false, false, false, true], "one value or none within 20 nm");
+        for (center, row) in centers.iter().zip(found) {
+            let Some(row) = row else { continue };
+            let values = nm.map(line);
+            assert!((row.apply(&values) - line(*center)).abs() < 1e-12, "{center} nm");
+        }
+        // One value at the wavelength itself stands for it.
+        assert_eq!(rows(&nm, &[460.0], 5.0)[0].as_ref().unwrap().terms, [(3, 1.0)]);
+        assert!(rows(&nm, &[461.0], 5.0)[0].is_none(), "a value 1 nm off stands for its own");
+        assert!(rows(&nm, &[450.0], 0.0)[0].is_none(), "no reach");
+    }
+
+    #[test]
     fn coarse_bands_stay_and_a_fine_library_is_folded_to_64() {
         let few = Bands::new(&[420.0, 465.0, 500.0, 555.0, 610.0, 660.0, 810.0], oils()).unwrap();
         assert_eq!(few.nm, [420.0, 465.0, 500.0, 555.0, 610.0, 660.0]);

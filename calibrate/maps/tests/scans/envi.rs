@@ -199,6 +199,12 @@ fn saturated_pixels_are_told() {
     let path = write_envi(folder.path(), "scan", &header("bil", 12, more), &counts);
     let block = Cube::open(&path).unwrap().read_rows(0..1).unwrap();
     assert_eq!(block.mask[..3], [Mask::Mapped, Mask::Saturated, Mask::Mapped]);
+    let last = u16::from(value(4, SAMPLES - 1, 2)) * 100;
+    for (full_scale, mask) in [(last, Mask::Saturated), (last + 1, Mask::Mapped)] {
+        let exact = CubeOptions { full_scale: Some(full_scale.into()), ..CubeOptions::default() };
+        let block = Cube::open_with(&path, &exact).unwrap().read_rows(4..5).unwrap();
+        assert_eq!(block.mask[SAMPLES - 1], mask, "{full_scale}");
+    }
     let lower = CubeOptions { full_scale: Some(10_000.0), ..CubeOptions::default() };
     let block = Cube::open_with(&path, &lower).unwrap().read_rows(4..5).unwrap();
     assert_eq!(block.mask[5..], [Mask::Mapped, Mask::Saturated], "values from 10,000 on");

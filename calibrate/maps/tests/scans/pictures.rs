@@ -281,6 +281,26 @@ fn spectral_exr_files_are_read() {
     assert!(found.contains("painting.exr"), "{found}");
 }
 
+#[test]
+fn a_spectral_exr_file_that_announces_more_than_it_can_hold_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path: PathBuf = folder.path().join("painting.exr");
+    write_exr(&path, &CHANNELS, Compression::ZIP16);
+    let mut bytes = std::fs::read(&path).unwrap();
+    // The window of the data: left, top, right and bottom, the last ones inclusive.
+    let name = b"dataWindow\0box2i\0";
+    let at = bytes.windows(name.len()).position(|window| window == name).unwrap() + name.len() + 4;
+    let window = [0, 0, (1 << 28) - 1, 7].map(i32::to_le_bytes).concat();
+    bytes[at..at + 16].copy_from_slice(&window);
+    std::fs::write(&path, &bytes).unwrap();
+    let (found, hint) = refused(&path, &CubeOptions::default());
+    // Seven channels of four bytes.
+    let announced = (7_u64 * 4 * 8) << 28;
+    let wanted = format!("{} bytes cannot hold the {announced} that", bytes.len());
+    assert!(found.contains("painting.exr") && found.contains(&wanted), "{found}");
+    assert!(hint.contains("export it again"), "{hint}");
+}
+
 /// Pages of two bands each, with neighbouring numbers in a pixel.
 fn write_chunky(path: &Path) {
     let mut encoder = TiffEncoder::new(File::create(path).unwrap()).unwrap();

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::effective::{EffectiveQuadrature, FilmSet};
-use super::rule::{MixtureSet, Quadrature, QuadratureError, QuadratureFailure};
+use super::rule::{MOST_MIXTURES, MixtureSet, Quadrature, QuadratureError, QuadratureFailure};
 use crate::evaluate::Viewing;
 use crate::library::PigmentLibrary;
 
@@ -40,7 +40,7 @@ pub struct QuadratureRequest {
     pub nodes: usize,
     /// Seed of the random mixtures
     pub seed: u64,
-    /// Number of random mixtures
+    /// Number of random mixtures, at most 100000
     pub mixtures: usize,
     /// Light and observer
     pub viewing: Viewing,
@@ -94,13 +94,16 @@ impl QuadratureRequest {
     ///
     /// # Errors
     /// [`QuadratureFailure`] for a method that needs a library where there is none, for 0 nodes or more than
-    /// 32, or if `task` was cancelled.
+    /// 32, for more than 100,000 mixtures, or if `task` was cancelled.
     pub fn run(
         &self,
         library: Option<&PigmentLibrary>,
         task: &Task,
     ) -> Result<QuadratureOutcome, QuadratureFailure> {
         let Self { viewing, nodes, .. } = self;
+        if self.mixtures > MOST_MIXTURES {
+            return Err(QuadratureFailure::Mixtures(self.mixtures));
+        }
         let method = self.method.unwrap_or(match library {
             Some(_) => QuadratureChoice::Effective,
             None => QuadratureChoice::Moments,

@@ -196,6 +196,9 @@ impl Light {
     }
 }
 
+/// Most random mixtures that a request draws.
+pub(super) const MOST_MIXTURES: usize = 100_000;
+
 /// A quadrature that cannot be computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error, Explain)]
 pub enum QuadratureFailure {
@@ -204,6 +207,11 @@ pub enum QuadratureFailure {
     #[hint("eight wavelengths are enough for most paints: [nodes=8]")]
     #[fault(Setting)]
     Count(usize),
+    /// The number of random mixtures is above 100,000, which take 60 MB.
+    #[error("at most {MOST_MIXTURES} random mixtures are drawn, found `{0}`")]
+    #[hint("the error hardly changes beyond [mixtures=1000]")]
+    #[fault(Setting)]
+    Mixtures(usize),
     /// A method fits wavelengths to a library, and there is none.
     #[error("the method `{0}` needs a pigment library")]
     #[hint("name the [library], or choose [method=moments]")]

@@ -100,6 +100,16 @@ impl PaintEngine {
         }
     }
 
+    /// Name of what decides the last digits of a picture: the graphics device, or the processor with any number of
+    /// threads.
+    #[must_use]
+    pub fn device_name(&self) -> String {
+        match self {
+            Self::Cpu(_) => "the processor".to_owned(),
+            Self::Gpu(paint) => paint.name(),
+        }
+    }
+
     /// The graphics device that computes. `None` on the processor.
     #[must_use]
     pub fn device(&self) -> Option<&Device> {

@@ -47,7 +47,7 @@ use pigment::library::LibraryError;
 
 pub use channels::{ChannelNames, PigmentChannel, channels_of_slots, slots_of_channels};
 pub use header::{ATTRIBUTE, ascii_json};
-pub use read::{EXPANSION, MEMORY_LIMIT, read, read_table, read_within};
+pub use read::{MEMORY_LIMIT, read, read_table, read_within};
 pub use write::{write, write_with_table};
 
 /// A painting's file cannot be read, or a painting cannot be written.
@@ -149,6 +149,16 @@ pub enum PaintingFileError {
         bytes: u64,
         /// Most bytes allowed.
         limit: u64,
+    },
+    /// The system does not give the memory that the painting needs.
+    #[error("{file}: the painting needs `{mb}` MB of memory, which the system does not give")]
+    #[hint("close other programs, or raise the limit of memory")]
+    #[fault(Environment)]
+    Memory {
+        /// Path of the file.
+        file: String,
+        /// Memory in MB.
+        mb: u64,
     },
     /// The painting contradicts itself, so we cannot write a file of it.
     #[error("the painting cannot be saved: {0}")]

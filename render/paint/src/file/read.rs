@@ -3,6 +3,7 @@
 
 use std::io::Cursor;
 
+use documents::file::{check_expansion, has_memory};
 use exr::block::UncompressedBlock;
 use exr::block::chunk::Chunk;
 use exr::meta::attribute::{AttributeValue, Compression, SampleType, Text};
@@ -351,10 +352,6 @@ fn document(
     })
 }
 
-/// Most bytes that one stored byte of an OpenEXR file can expand to: 1032 by ZIP, less by PIZ, plus
-/// headers. If a file announces more, we refuse it as truncated or malicious.
-pub const EXPANSION: u64 = 1100;
-
 /// A part of the file that passed the checks.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct PartLayout {
@@ -431,11 +428,12 @@ pub(super) fn layout(
         cells.saturating_mul(4 * part.channels as u64)
     });
     let stored = stored.fold(0, u64::saturating_add);
-    if stored > EXPANSION.saturating_mul(file_bytes as u64) {
-        return Err(PaintingFileError::Container {
-            file: file.to_owned(),
-            reason: format!("{file_bytes} bytes cannot hold the {stored} that its header tells of"),
-        });
+    check_expansion(stored, file_bytes as u64).map_err(|error| PaintingFileError::Container {
+        file: file.to_owned(),
+        reason: error.to_string(),
+    })?;
+    if !has_memory(bytes) {
+        return Err(PaintingFileError::Memory { file: file.to_owned(), mb: bytes >> 20 });
     }
     Ok(found)
 }

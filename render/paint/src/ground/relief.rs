@@ -4,7 +4,7 @@ use std::io::Cursor;
 
 use graphics::field::Field;
 use graphics::noise::{Hills, random};
-use graphics::picture_formats::fault_of_jpeg;
+use graphics::picture_formats::fault_of_coding;
 use image::{ImageReader, Limits};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -475,7 +475,7 @@ impl PictureRelief {
         let rejected = |reason: String| GroundError::Picture { path: self.path.clone(), reason };
         let bytes =
             documents::file::disk::read(&self.path).map_err(|error| rejected(error.to_string()))?;
-        if let Some(fault) = fault_of_jpeg(&bytes) {
+        if let Some(fault) = fault_of_coding(&bytes) {
             return Err(rejected(fault));
         }
         let mut reader = ImageReader::new(Cursor::new(bytes))

@@ -39,11 +39,12 @@ impl Painting {
 
     /// Adds paint to a brush: all over its hair, or along the edge of a knife, `amount_mm` mm of
     /// the mixture of `recipe` (parts by slot), of which the fraction `vehicle` (0 to 1) is clear
-    /// medium. With `vehicle` 1 the recipe may be empty.
+    /// medium. With `vehicle` 1 the recipe may be empty. A brush with paint on it takes as much as it has room
+    /// for, so that no script fails in the middle because strokes left a bit more on its brush.
     ///
     /// # Errors
-    /// [`PaintingError`] if the recipe has no parts or parts of an empty slot, or if the
-    /// brush cannot hold that much.
+    /// [`PaintingError`] if the recipe has no parts or parts of an empty slot, or if a clean brush
+    /// could not hold that much.
     ///
     /// # Panics
     /// If there is no such brush.
@@ -55,19 +56,19 @@ impl Painting {
         amount_mm: f64,
     ) -> Result<(), PaintingError> {
         let area = self.brushes[brush.0].head.paint_cell_area();
-        let fresh = self.mixture(recipe, vehicle, amount_mm * area)?;
+        self.mixture(recipe, vehicle, amount_mm * area)?;
+        check_load(&self.brushes[brush.0].head, self.cell_mm, amount_mm)?;
         let mut paint = self.engine.brush_paint(self.brushes[brush.0].id)?;
-        let most_mm = self.most_load_mm(brush, &paint);
-        if amount_mm > most_mm {
-            return Err(PaintingError::Overloaded { amount_mm, most_mm });
-        }
+        let taken_mm = amount_mm.min(self.most_load_mm(brush, &paint));
+        let fresh = self.mixture(recipe, vehicle, taken_mm * area)?;
         for index in self.cells_with_paint(brush) {
             paint.set_cell(index, paint.cell(index).plus(&fresh));
         }
         self.set_brush_paint(brush, &paint)
     }
 
-    /// Largest amount, in mm, that [`Painting::load`] can add to a brush on which there is `paint`.
+    /// Amount in mm for which a brush has room on which there is `paint`. Of more, [`Painting::load`] adds as
+    /// much.
     ///
     /// # Panics
     /// If there is no such brush, or `paint` does not have the cells of the head.
@@ -287,6 +288,18 @@ pub(super) fn share_of_65536_parts(what: &'static str, value: f64) -> Result<u32
 /// The last 1 / `TIP` of the head counts as its tip: about as much as lies on the canvas at middle
 /// pressure.
 const TIP: usize = 3;
+
+/// Checks that a clean head can hold `amount_mm` mm of paint, which depends on the cells.
+///
+/// # Errors
+/// [`PaintingError::Overloaded`] if it cannot.
+pub(crate) fn check_load(head: &Head, cell_mm: f64, amount_mm: f64) -> Result<(), PaintingError> {
+    let most_mm = mm_from_quanta(CAPACITY, cell_mm) / head.paint_cell_area();
+    match amount_mm <= most_mm {
+        true => Ok(()),
+        false => Err(PaintingError::Overloaded { amount_mm, most_mm, cell_mm }),
+    }
+}
 
 /// Paint at the tip of a brush: the third of the head that lies on the canvas, all around.
 #[derive(Debug, Clone, Copy, PartialEq)]

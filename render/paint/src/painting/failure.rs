@@ -60,14 +60,18 @@ pub enum PaintingError {
     /// A recipe has parts of a slot without pigment.
     #[error("slot {0} of the palette holds no pigment")]
     EmptySlot(usize),
-    /// A brush cannot hold that much more paint.
-    #[error("the brush has room for {most_mm:.2} mm of paint, found `{amount_mm}`")]
-    #[hint("wipe or wash the brush first")]
+    /// A brush cannot hold that much paint.
+    #[error(
+        "the brush has room for {most_mm:.2} mm of paint with cells of {cell_mm} mm, found `{amount_mm}`"
+    )]
+    #[hint("load less at a time, or paint with larger cells")]
     Overloaded {
         /// Height of the paint to load, in mm.
         amount_mm: f64,
-        /// Height that the head can still take, in mm.
+        /// Height that the clean head can take, in mm.
         most_mm: f64,
+        /// Width of the canvas's cells in mm.
+        cell_mm: f64,
     },
     /// A pigment cannot leave the palette while it is wet on the canvas or on a brush.
     #[error("{0} is still wet, so it cannot leave the palette")]

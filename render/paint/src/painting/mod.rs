@@ -15,6 +15,7 @@ mod actions;
 
 pub use actions::MERGE_TOLERANCE;
 pub use brushes::TipLoad;
+pub(crate) use brushes::check_load;
 pub use failure::PaintingError;
 pub use open_stroke::{OpenStroke, StrokeReport, TakenPaint};
 pub use state::{Brush, Painting, State, UNDO_BYTES};

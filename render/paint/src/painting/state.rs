@@ -249,6 +249,12 @@ impl Painting {
         self.engine.name()
     }
 
+    /// Name of what decides the last digits of a picture: the graphics device, or the processor with any number of
+    /// threads.
+    pub(crate) fn device_name(&self) -> String {
+        self.engine.device_name()
+    }
+
     /// Wet paint on the canvas and on all brushes: the height in mm of each slot and, last, of
     /// the vehicle, summed over cells.
     ///

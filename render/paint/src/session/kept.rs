@@ -5,7 +5,7 @@
 //! itself would have: its brushes are the same heads with the same paint, and its recording goes
 //! on. Its history is empty. In the continued recording, no undo reaches back to older actions.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -14,8 +14,10 @@ use documents::hint::Explain;
 use super::history::Record;
 use super::state::{KeptHead, Outcome, PaintingSession};
 use crate::amount::MAX_COLUMN;
+use crate::brush::Head;
 use crate::mask::Mask;
-use crate::painting::{Painting, PaintingError, StrokeReport};
+use crate::painting::{Painting, PaintingError, StrokeReport, check_load};
+use crate::stroke::{Path, SampleDecimals};
 use crate::strokes::{Action, KeptBrush, ScriptError, StrokeScript, SurfaceId};
 
 /// The end of a recording, from some action on.
@@ -238,7 +240,8 @@ impl StrokeScript {
     ///
     /// # Errors
     /// [`ReplayError`] before the first action if the script is invalid (see
-    /// [`StrokeScript::resolve`]), else at the first action that fails.
+    /// [`StrokeScript::resolve`]) or asks for more than cells of this width allow: a larger brush, a longer
+    /// stroke, more paint in one load. Else at the first action that fails.
     pub fn replay<E: std::error::Error + 'static>(
         &self,
         session: &mut PaintingSession,
@@ -246,6 +249,7 @@ impl StrokeScript {
         mut step: impl FnMut() -> ControlFlow<()>,
     ) -> Result<ReplayReport, ReplayError<E>> {
         self.resolve(session.canvas().library())?;
+        self.check_cells(session.canvas().cell_mm())?;
         session.add_names_of(&self.palette).map_err(ScriptError::from)?;
         let mut report = ReplayReport::default();
         let mut used = BTreeSet::new();
@@ -273,6 +277,47 @@ impl StrokeScript {
             }
         }
         Ok(report)
+    }
+
+    /// Checks all that depends on the width of the cells, so that no replay fails in the middle for it.
+    fn check_cells<E: std::error::Error + 'static>(
+        &self,
+        cell_mm: f64,
+    ) -> Result<(), ReplayError<E>> {
+        let mut heads = BTreeMap::new();
+        for (index, action) in self.actions.iter().enumerate() {
+            self.check_action(action, cell_mm, &mut heads).map_err(|error| {
+                let error = Box::new(error);
+                ReplayError::Action { index, kind: action.kind(), error }
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Checks an action on cells of this width. `heads` holds the heads of the brushes so far.
+    fn check_action<'a>(
+        &'a self,
+        action: &'a Action,
+        cell_mm: f64,
+        heads: &mut BTreeMap<&'a str, Head>,
+    ) -> Result<(), PaintingError> {
+        let Some((name, spec)) = action.brush().and_then(|name| self.brushes.get_key_value(name))
+        else {
+            return Ok(());
+        };
+        if !heads.contains_key(name.as_str()) {
+            heads.insert(name, Head::new(spec.shape, spec.size_mm, cell_mm)?);
+        }
+        if let Action::Load(load) = action {
+            check_load(&heads[name.as_str()], cell_mm, load.amount_mm)?;
+        }
+        if let Some(stroke) = action.stroke() {
+            let mut path = Path::new(cell_mm, spec.size_mm)?;
+            for sample in &stroke.samples {
+                path.push(&SampleDecimals::RECORDING.round(sample))?;
+            }
+        }
+        Ok(())
     }
 }
 

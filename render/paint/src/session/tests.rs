@@ -10,7 +10,7 @@ use graphics::tile::Rect;
 use pigment::library::PigmentLibrary;
 
 use super::history::Limits;
-use super::kept::KeptSession;
+use super::kept::{KeptSession, ReplayError};
 use super::state::{Outcome, PaintingSession};
 use crate::brush::{HeadShape, StrokeTool};
 use crate::document::{Document, LayerId};
@@ -391,6 +391,43 @@ const HEADER: &str = r#"{"format": "strokes", "version": 1, "brushes": {}, "acti
     "canvas": {"width_mm": 24, "height_mm": 16, "cell_mm": 0.25},
     "mixing": {"width_mm": 12, "height_mm": 8, "cell_mm": 0.25},
     "palette": ["Lead White", "Prussian Blue"]}"#;
+
+#[test]
+fn what_cells_do_not_allow_is_found_before_the_first_action() {
+    let loads = r#"{"load": {"brush": "flat", "recipe": {"Lead White": 1}, "vehicle": 0.2, "amount_mm": 0.1}},
+        {"load": {"brush": "flat", "recipe": {"Lead White": 1}, "vehicle": 0.2, "amount_mm": 3}}"#;
+    for (cell_mm, size_mm, refused) in [
+        (0.25, 4.0, None),
+        (0.05, 4.0, Some((1, "has room for"))),
+        (0.04, 90.0, Some((0, "2048 cells wide"))),
+    ] {
+        let text = format!(
+            r#"{{"format": "strokes", "version": 1,
+            "canvas": {{"width_mm": 24, "height_mm": 16, "cell_mm": {cell_mm}}},
+            "palette": ["Lead White"], "brushes": {{"flat": {{"shape": "flat", "size_mm": {size_mm}}}}},
+            "actions": [{loads}]}}"#
+        );
+        let script = StrokeScript::from_json("a.json", text.as_bytes()).unwrap();
+        let mut session = session_on(&script, None);
+        let mut steps = 0;
+        let played = script.replay(
+            &mut session,
+            |_: &str, _: &mut Painting| Ok::<(), Infallible>(()),
+            || {
+                steps += 1;
+                ControlFlow::Continue(())
+            },
+        );
+        match (played, refused) {
+            (Ok(_), None) => assert_eq!(steps, 2),
+            (Err(ReplayError::Action { index, error, .. }), Some((wanted, words))) => {
+                assert_eq!((index, steps), (wanted, 0), "{error}");
+                assert!(error.to_string().contains(words), "{error}");
+            }
+            (played, refused) => panic!("{played:?} for {refused:?}"),
+        }
+    }
+}
 
 fn opened(canvas: Document, palette: Option<Document>) -> (Painting, Option<Painting>) {
     let on_canvas = engine(&canvas);

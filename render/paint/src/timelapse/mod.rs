@@ -481,8 +481,8 @@ impl Timelapse<'_> {
         digest.update(self.script.to_json()?);
         digest.update(format!("{:?}", self.settings));
         digest.update(session.canvas().library().to_json());
-        // We compute light in f32, which differs between backends.
-        digest.update(session.canvas().backend());
+        // We compute light in f32, which differs between devices, but not between numbers of threads.
+        digest.update(session.canvas().device_name());
         if self.script.start.is_some() {
             digest.update(crate::file::write(&session.canvas_mut().document()?)?);
         }

@@ -140,6 +140,19 @@ fn an_interrupted_run_continues_to_the_same_file() {
     }
 }
 
+#[test]
+fn another_number_of_threads_continues_a_run() {
+    let (script, _) = recorded();
+    let timelapse = Timelapse::new(&script, settings(Interval::Frames(6))).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let files = TimelapseFiles { keep_frames: true, ..files(folder.path(), "a.gif") };
+    let written = [1, 3].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| timelapse.write(&mut blank(), &files, go_on)).unwrap()
+    });
+    assert_eq!(written, [Some(0), Some(6)], "frames that stayed");
+}
+
 fn go_on(_: f64) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }

@@ -163,6 +163,12 @@ fn raw_counts_are_told_as_counts_and_a_dark_tile_is_refused() {
     let found = impasto(&with);
     assert_eq!(found.status, 0, "{}", found.err);
     assert!(found.err.contains("in counts, divided by the white"), "{}", found.err);
+    // The white reads 20,000 at most, so this detector is saturated and one count more is not.
+    for (full_scale, is_read) in [("20000", false), ("20001", true)] {
+        let found = impasto(&[&with[..], &["--full-scale", full_scale]].concat());
+        assert_eq!(found.status == 0, is_read, "{full_scale}: {}", found.err);
+        assert_eq!(found.err.contains("saturated"), !is_read, "{full_scale}: {}", found.err);
+    }
     let found = impasto(&[&with[..], &["--tile", &tile]].concat());
     assert!(found.status != 0 && found.err.contains("stated in percent"), "{}", found.err);
 }

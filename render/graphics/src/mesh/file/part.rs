@@ -9,7 +9,7 @@ use documents::hint::Explain;
 use image::{ImageReader, Limits};
 
 use crate::mesh::model::{LEAST_SIZE, MOST_SIZE, Material, Mesh, MeshFault, Texture, Triangle};
-use crate::picture_formats::{NAMES, fault_of_jpeg};
+use crate::picture_formats::{NAMES, fault_of_coding};
 
 /// A part of a model as a file stores it.
 #[derive(Debug, Default)]
@@ -188,7 +188,7 @@ impl Textures {
 impl Texture {
     /// Decodes a PNG, JPEG, TIFF or WebP image. If it cannot, the error is the decoder's reason.
     fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
-        if let Some(fault) = fault_of_jpeg(bytes) {
+        if let Some(fault) = fault_of_coding(bytes) {
             return Err(fault);
         }
         let mut reader = ImageReader::new(Cursor::new(bytes))

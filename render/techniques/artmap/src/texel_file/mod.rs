@@ -11,6 +11,7 @@ mod kind;
 
 use std::io::Cursor;
 
+use documents::file::check_expansion;
 use exr::block::UncompressedBlock;
 use exr::block::chunk::Chunk;
 use exr::block::reader::Reader;
@@ -21,7 +22,7 @@ use exr::meta::attribute::{
 };
 use exr::meta::header::{Header, ImageAttributes, LayerAttributes};
 use exr::meta::{BlockDescription, MetaData};
-use paint::file::{ATTRIBUTE, EXPANSION};
+use paint::file::ATTRIBUTE;
 use rayon::prelude::*;
 
 pub use kind::TexelFileError;
@@ -60,11 +61,8 @@ fn layout(
         texels.saturating_mul((size_of::<f32>() * plan.channels.len()) as u64)
     });
     let stored = stored.fold(0, u64::saturating_add);
-    if stored > EXPANSION.saturating_mul(file_bytes as u64) {
-        return Err(origin.damaged(format!(
-            "{file_bytes} bytes cannot hold the {stored} that its header tells of"
-        )));
-    }
+    check_expansion(stored, file_bytes as u64)
+        .map_err(|error| origin.damaged(error.to_string()))?;
     Ok(layouts)
 }
 
@@ -288,8 +286,9 @@ pub(crate) fn write(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use documents::file::EXPANSION;
     use documents::hint::Explain;
-    use paint::file::{ATTRIBUTE, EXPANSION};
+    use paint::file::ATTRIBUTE;
 
     const KIND: TexelFileKind = TexelFileKind {
         format: "impasto-test",
