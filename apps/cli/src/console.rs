@@ -96,7 +96,6 @@ impl Console<'_> {
     /// reads them as they were.
     pub(crate) fn json(&mut self, value: &Value) -> Result<()> {
         let mut text = calibrate::library::to_text(value);
-        let is_obeyed = |c: char| c != '\n' && documents::is_hidden(c);
         if text.contains(is_obeyed) {
             let letters = text.chars().map(|c| match is_obeyed(c) {
                 true => c.encode_utf16(&mut [0; 2]).iter().map(|u| format!("\\u{u:04x}")).collect(),
@@ -182,6 +181,11 @@ impl Console<'_> {
         let [r, g, b] = color.to_bytes();
         format!("{PATCH_START}{r};{g};{b}{PATCH_END}")
     }
+}
+
+/// Whether a terminal obeys a character of JSON, which has several lines.
+fn is_obeyed(c: char) -> bool {
+    c != '\n' && documents::is_hidden(c)
 }
 
 /// Escape codes before the three numbers of a patch of colour.

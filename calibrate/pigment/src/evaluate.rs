@@ -238,12 +238,13 @@ mod tests {
         }
     }
 
+    fn warning(first: f64, last: f64, step: f64) -> String {
+        let found = check_visible_band(Grid::from_range(first, last, step).unwrap()).unwrap();
+        found.map(|remark| remark.text).unwrap_or_default()
+    }
+
     #[test]
     fn coarse_steps_are_a_warning() {
-        let warning = |first: f64, last: f64, step: f64| {
-            let found = check_visible_band(Grid::from_range(first, last, step).unwrap()).unwrap();
-            found.map(|remark| remark.text).unwrap_or_default()
-        };
         assert!(warning(400.0, 700.0, 300.0).starts_with("spectra in steps of 300 nm; "));
         let both = warning(500.0, 650.0, 50.0);
         assert!(

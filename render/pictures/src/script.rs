@@ -480,8 +480,9 @@ fn check_saves(
             && checked.insert(path)
         {
             let output = Output::below(folder, Path::new(path), inputs);
-            let part = || format!("action {} (save)", index + 1);
-            output.map_err(|error| PictureError::from(error).within(part()))?;
+            output.map_err(|error| {
+                PictureError::from(error).within(format!("action {} (save)", index + 1))
+            })?;
         }
     }
     Ok(())

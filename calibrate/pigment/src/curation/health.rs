@@ -491,14 +491,15 @@ impl<'a> Side<'a> {
 mod tests {
     use super::*;
 
+    fn faults(library: &PigmentLibrary) -> Vec<String> {
+        let found = health(library, &Viewing::default()).findings;
+        let faults = found.into_iter().filter(|finding| finding.severity == Severity::Fault);
+        faults.map(|finding| finding.what).collect()
+    }
+
     #[test]
     fn figures_that_no_paint_has_are_faults() {
         let sound = PigmentLibrary::van_gogh_oils();
-        let faults = |library: &PigmentLibrary| -> Vec<String> {
-            let found = health(library, &Viewing::default()).findings;
-            let faults = found.into_iter().filter(|finding| finding.severity == Severity::Fault);
-            faults.map(|finding| finding.what).collect()
-        };
         assert!(faults(&sound).is_empty(), "{:?}", faults(&sound));
         type Change = fn(&mut PigmentLibrary);
         let changes: [(Change, &str); 4] = [
