@@ -64,7 +64,7 @@ impl Completions {
     pub(crate) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut command(), "impasto", &mut script);
-        console.line(String::from_utf8_lossy(&script).trim_end())
+        console.text(&(String::from_utf8_lossy(&script).trim_end().to_owned() + "\n"))
     }
 }
 

@@ -9,7 +9,7 @@ use suite::program::{Run, impasto, repository};
 /// The columns of a small table of readings, with `name` for a sample and `pigment` for a column.
 fn readings(name: &str, pigment: &str) -> String {
     format!(
-        "sample,film,backing,White,{pigment},400,410,420\n\
+        "sample,film,backing,White,{pigment},400,550,700\n\
          a,paint,card,100,,90,91,92\n{name},paint,card,,100,10,11,60\n\
          c,paint,card,50,50,20,22,70\nd,paint,card,90,10,40,42,80\n"
     )
@@ -62,7 +62,7 @@ fn names_of_more_than_200_letters_are_refused_with_their_place() {
         (&["fit", &pigment, "-o", &output], &["pigment.csv, row 1, column `nnn", most]),
         (&["validate", &sample], &["row 3", most]),
         (&["color", &sample], &[most]),
-        (&["color", &spectra], &["spectra.txt, line 1", most]),
+        (&["color", &spectra], &["spectra.txt, line 2", most]),
         (&["library", "list", &json], &["long.json: pigment number ", most]),
         (&["library", "check", &json], &[most]),
         (&["mix", &json, "Zinc White=1"], &[most]),
@@ -143,7 +143,7 @@ fn a_long_cell_is_not_echoed_whole() {
     let folder = tempfile::tempdir().unwrap();
     let long = "9x ".repeat(500_000);
     let cell = written(folder.path(), "cell.csv", readings("b", "Red").replace("22", &long));
-    refused(&impasto(&["fit", &cell]), &["row 4", "column `410`", "9x 9x", ".."]);
+    refused(&impasto(&["fit", &cell]), &["row 4", "column `550`", "9x 9x", ".."]);
     let text = format!("{{\"format\": \"{long}\"}}");
     let json = written(folder.path(), "long.json", text);
     refused(&impasto(&["library", "list", &json]), &["`format` must be", "letters more]"]);
