@@ -218,10 +218,11 @@ impl Table {
     pub fn csv(&self) -> String {
         let mut writer = csv::Writer::from_writer(Vec::new());
         let header = self.columns.iter().map(Column::header);
+        let header = header.map(|name| documents::spreadsheet_cell(&name).into_owned());
         writer.write_record(header).expect("writing to memory does not fail");
         for row in &self.rows {
             let cells = row.iter().map(|cell| match cell {
-                Cell::Text(text) => text.clone(),
+                Cell::Text(text) => documents::spreadsheet_cell(text).into_owned(),
                 Cell::Number(number) => format!("{}", rounded(*number)),
                 Cell::Patch(color) => color.hex(),
                 Cell::Empty => String::new(),

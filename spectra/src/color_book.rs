@@ -17,7 +17,9 @@ use std::path::Path;
 
 use documents::file::{FileError, read};
 use documents::hint::Explain;
-use documents::{counted, name_list, question};
+use documents::{
+    counted, excerpt, from_spreadsheet_cell, name_list, name_violation, plain_name, question,
+};
 
 use crate::color::{Lab, Rgb, Xyz};
 use crate::csv_table::{CellPlace, RowNumbers, wavelength_of_header};
@@ -273,6 +275,12 @@ impl<'a> Table<'a> {
             }
             let value = self.value(*row, cells, white)?;
             let name = name_column.and_then(|at| cells.get(at)).unwrap_or_default();
+            let name = plain_name(from_spreadsheet_cell(name));
+            if let (Some(at), Some(wanted)) = (name_column, name_violation(&name))
+                && !name.is_empty()
+            {
+                return Err(self.wrong(*row, cells, at, wanted));
+            }
             let texts = cells.iter().enumerate().filter(|(at, text)| {
                 !places.contains(at)
                     && Some(*at) != name_column
@@ -280,7 +288,7 @@ impl<'a> Table<'a> {
                     && number(text, self.separator).is_none()
             });
             colors.push(BookColor {
-                name: named_or_place(name, colors.len() + 1),
+                name: named_or_place(&name, colors.len() + 1),
                 other_names: texts.map(|(_, text)| text.to_owned()).collect(),
                 value: BookValue::Srgb(Rgb([0.0; 3])),
             });
@@ -320,15 +328,11 @@ impl<'a> Table<'a> {
         white: Xyz,
     ) -> Result<[f64; 3], ColorBookError> {
         let most = 2.0 * white.to_array().into_iter().fold(0.0, f64::max);
-        let wrong = |at: usize, wanted: &'static str| {
-            let heading = self.headings.get(at).map_or("colour", String::as_str);
-            let place = CellPlace::new(self.file, row, heading);
-            let text = cells.get(at).unwrap_or_default().to_owned();
-            ColorBookError::Cell { place, wanted, text }
-        };
         if let ColorColumns::Hex(at) = self.columns {
             let code = Rgb::from_hex(cells.get(at).unwrap_or_default());
-            return code.map(|rgb| rgb.0).ok_or_else(|| wrong(at, "a code such as #4a7d8c"));
+            return code
+                .map(|rgb| rgb.0)
+                .ok_or_else(|| self.wrong(row, cells, at, "a code such as #4a7d8c"));
         }
         let mut values = [0.0; 3];
         for (channel, at) in self.columns.places().into_iter().enumerate() {
@@ -342,10 +346,24 @@ impl<'a> Table<'a> {
             let found = cells.get(at).and_then(|cell| number(cell, self.separator));
             let found = found.filter(|value| range.contains(value));
             let found = found.filter(|value| !is_byte || value.fract() == 0.0);
-            let found = found.ok_or_else(|| wrong(at, wanted))?;
+            let found = found.ok_or_else(|| self.wrong(row, cells, at, wanted))?;
             values[channel] = if is_byte { found / 255.0 } else { found };
         }
         Ok(values)
+    }
+
+    /// The error of a cell that does not hold what is `wanted`.
+    fn wrong(
+        &self,
+        row: u64,
+        cells: &csv::StringRecord,
+        at: usize,
+        wanted: &'static str,
+    ) -> ColorBookError {
+        let heading = self.headings.get(at).map_or("colour", String::as_str);
+        let place = CellPlace::new(self.file, row, heading);
+        let text = cells.get(at).unwrap_or_default().to_owned();
+        ColorBookError::Cell { place, wanted, text }
     }
 
     /// Light and observer that the headings of the colour state.
@@ -498,7 +516,7 @@ pub enum ColorBookError {
     #[error(transparent)]
     Swatches(#[from] SwatchFileError),
     /// A cell does not hold the number that its column needs.
-    #[error("{place}: expected {wanted}, found `{text}`")]
+    #[error("{place}: expected {wanted}, found `{}`", excerpt(text))]
     Cell {
         /// File, row and column of the cell.
         place: CellPlace,

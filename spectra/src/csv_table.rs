@@ -1,7 +1,7 @@
 //! Tables of spectra in CSV files: the place of a cell, errors of any table, and the wavelength
 //! in a column's heading.
 
-use documents::counted;
+use documents::{counted, excerpt};
 
 /// A cell of a CSV file.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -46,8 +46,8 @@ impl std::fmt::Display for CellPlace {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Self { file, row, column, sheet_column } = self;
         match sheet_column.map(column_letters) {
-            Some(letters) => write!(f, "{file}, cell {letters}{row}, column `{column}`"),
-            None => write!(f, "{file}, row {row}, column `{column}`"),
+            Some(letters) => write!(f, "{file}, cell {letters}{row}, column `{}`", excerpt(column)),
+            None => write!(f, "{file}, row {row}, column `{}`", excerpt(column)),
         }
     }
 }
@@ -93,10 +93,12 @@ impl<'a> RowNumbers<'a> {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CsvTableError {
     /// A required column is missing.
-    #[error("{file}, row 1: no column `{column}`")]
+    #[error("{file}, row {row}: no column `{column}`")]
     MissingColumn {
         /// Path of the file.
         file: String,
+        /// Row of the headings, from 1.
+        row: u64,
         /// Heading of the missing column.
         column: &'static str,
     },
@@ -113,7 +115,7 @@ pub enum CsvTableError {
         found: usize,
     },
     /// A cell does not contain the required number.
-    #[error("{place}: expected {wanted}, found `{text}`")]
+    #[error("{place}: expected {wanted}, found `{}`", excerpt(text))]
     Cell {
         /// File, row and column of the cell.
         place: CellPlace,

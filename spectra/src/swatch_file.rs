@@ -17,6 +17,7 @@
 use std::fmt::Write;
 
 use documents::hint::Explain;
+use documents::{excerpt, name_violation, plain_name};
 
 use crate::color::{Adaptation, Lab, Rgb, RgbSpace, Xyz};
 use crate::grid::Grid;
@@ -157,8 +158,12 @@ pub fn read_gpl(file: &str, bytes: &[u8]) -> Result<SwatchFile, SwatchFileError>
                 *channel = f64::from(byte) / 255.0;
                 rest = after.trim_start();
             }
+            let name = plain_name(rest);
+            if let Some(wanted) = name_violation(&name).filter(|_| !name.is_empty()) {
+                return Err(wrong(number, wanted, rest));
+            }
             palette.swatches.push(SwatchEntry {
-                name: rest.to_owned(),
+                name,
                 group: String::new(),
                 color: SwatchColor::Rgb(Rgb(channels)),
             });
@@ -168,7 +173,7 @@ pub fn read_gpl(file: &str, bytes: &[u8]) -> Result<SwatchFile, SwatchFileError>
 }
 
 fn one_line(name: &str) -> String {
-    name.replace(char::is_control, " ").trim().to_owned()
+    plain_name(name)
 }
 
 const COLOR: u16 = 0x0001;
@@ -483,8 +488,13 @@ impl<'a> Bytes<'a> {
         if units.last() == Some(&0) {
             units.pop();
         }
-        String::from_utf16(&units)
-            .map_err(|_| self.wrong(offset, expected, "half a surrogate pair"))
+        let text = String::from_utf16(&units)
+            .map_err(|_| self.wrong(offset, expected, "half a surrogate pair"))?;
+        let name = plain_name(&text);
+        match name_violation(&name).filter(|_| !name.is_empty()) {
+            Some(wanted) => Err(self.wrong(offset, wanted, excerpt(&name))),
+            None => Ok(name),
+        }
     }
 }
 

@@ -64,7 +64,7 @@ impl Completions {
     pub(crate) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut command(), "impasto", &mut script);
-        console.line(String::from_utf8_lossy(&script).trim_end())
+        console.text(&(String::from_utf8_lossy(&script).trim_end().to_owned() + "\n"))
     }
 }
 
@@ -234,5 +234,130 @@ mod tests {
             let is_there = *name == "help" || shown.contains(name);
             assert!(is_there || LACKING.is_some(), "there is no verb {name}");
         }
+    }
+}
+
+/// Compares the options that hints and messages name with those of the verbs.
+#[cfg(all(test, feature = "pictures"))]
+mod named_options {
+    use std::collections::BTreeSet;
+    use std::path::Path;
+
+    use super::*;
+    use crate::failure::with_options;
+
+    /// Words in square brackets that no error shows as a setting: tables of TOML, units and columns of files.
+    /// Below them options that every program has, and one of cargo.
+    const NO_SETTINGS: [&str; 9] = [
+        "--counts",
+        "--nm",
+        "--table",
+        "--x",
+        "--fill",
+        "--stroke",
+        "--help",
+        "--version",
+        "--no-default-features",
+    ];
+
+    /// The options of a verb and of its own verbs, without old spellings.
+    fn options_of(verb: &Command) -> BTreeSet<String> {
+        let own = verb.get_arguments().filter(|option| !option.is_hide_set());
+        let own = own.flat_map(|option| {
+            let aliases = option.get_visible_aliases().unwrap_or_default();
+            option.get_long().into_iter().chain(aliases).collect::<Vec<_>>()
+        });
+        let own = own.map(|name| format!("--{name}"));
+        own.chain(verb.get_subcommands().flat_map(options_of)).collect()
+    }
+
+    /// The texts in double quotes of a source, without its comments and its tests, each with its line.
+    fn literals(source: &str) -> Vec<(usize, String)> {
+        let source = source.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
+        let mut found = Vec::new();
+        let mut rest = source;
+        while let Some(at) = rest.find(['"', '/', '\'', 'r']) {
+            let before = &rest[..at];
+            rest = &rest[at..];
+            let raw =
+                rest.strip_prefix("r#\"").filter(|_| !before.ends_with(char::is_alphanumeric));
+            if rest.starts_with("//") {
+                rest = rest.split_once('\n').map_or("", |(_, rest)| rest);
+            } else if let Some(inside) = raw {
+                rest = inside.split_once("\"#").map_or("", |(_, rest)| rest);
+            } else if let Some(inside) = rest.strip_prefix('"') {
+                let line = source[..source.len() - rest.len()].lines().count();
+                let mut escaped = false;
+                let end = inside.find(|c| {
+                    let ends = c == '"' && !escaped;
+                    escaped = c == '\\' && !escaped;
+                    ends
+                });
+                let end = end.unwrap_or(inside.len());
+                found.push((line, inside[..end].to_owned()));
+                rest = inside.get(end + 1..).unwrap_or_default();
+            } else if rest.starts_with("'\"'") {
+                rest = &rest[3..];
+            } else if rest.starts_with("'\\") {
+                rest = rest.get(4..).unwrap_or_default();
+            } else {
+                rest = &rest[1..];
+            }
+        }
+        found
+    }
+
+    /// The options in a text.
+    fn options_in(text: &str) -> Vec<String> {
+        let starts = text.match_indices("--").filter(|(at, _)| {
+            text[..*at].is_empty() || text[..*at].ends_with([' ', '`', '\'', '(', '|'])
+        });
+        let words = starts.map(|(at, _)| {
+            let end = text[at + 2..].find(|c: char| !c.is_ascii_lowercase() && c != '-');
+            &text[at..end.map_or(text.len(), |end| at + 2 + end)]
+        });
+        words.filter(|word| word.len() > 2).map(str::to_owned).collect()
+    }
+
+    /// Sources below `folder` that are no tests.
+    fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+            if path.is_dir() && !["tests", "examples", "benches", "target"].contains(&name) {
+                sources(&path, found);
+            } else if name.ends_with(".rs") && !name.ends_with("tests.rs") {
+                found.push(path);
+            }
+        }
+    }
+
+    #[test]
+    fn hints_name_options_that_exist() {
+        let command = command();
+        let all = options_of(&command);
+        let scans = ["map", "identify", "simulate-scan"].map(|verb| command.find_subcommand(verb));
+        let of_scans: BTreeSet<String> = scans.into_iter().flatten().flat_map(options_of).collect();
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let (mut wrong, mut count) = (Vec::new(), 0);
+        for folder in ["documents", "spectra", "calibrate", "render", "reports", "apps/cli/src"] {
+            let mut files = Vec::new();
+            sources(&root.join(folder), &mut files);
+            for path in files {
+                let name = path.display().to_string();
+                let known = if name.contains("calibrate/maps/") { &of_scans } else { &all };
+                for (line, text) in literals(&std::fs::read_to_string(&path).unwrap()) {
+                    let hint = with_options(&documents::hint::Hint::new(text));
+                    let options = options_in(&hint);
+                    count += options.len();
+                    let unknown = options.into_iter().filter(|option| {
+                        !known.contains(option) && !NO_SETTINGS.contains(&option.as_str())
+                    });
+                    wrong.extend(unknown.map(|option| format!("{name}:{line}: {option}")));
+                }
+            }
+        }
+        assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+        assert!(count > 300, "{count} options were found");
     }
 }

@@ -7,6 +7,7 @@ use std::io::Write;
 use std::path::Path;
 
 use calibrate::remark::{Remark, RemarkKind};
+use documents::printable;
 use serde_json::Value;
 use spectra::color::Rgb;
 
@@ -55,18 +56,54 @@ impl Console<'_> {
         if self.streamed { &mut *self.err } else { &mut *self.out }
     }
 
-    /// Prints one line of results.
+    /// Prints one line of results. Nothing in it but our patches of colour reaches the terminal as a command.
     pub(crate) fn line(&mut self, text: impl AsRef<str>) -> Result<()> {
         if self.streamed && self.voice == Voice::Quiet {
             return Ok(());
         }
-        writeln!(self.results(), "{}", text.as_ref())?;
+        let text = self.shown(text.as_ref());
+        writeln!(self.results(), "{text}")?;
         Ok(())
     }
 
-    /// Prints a result as JSON.
+    /// Prints results of several lines.
+    pub(crate) fn lines(&mut self, text: impl AsRef<str>) -> Result<()> {
+        text.as_ref().lines().try_for_each(|line| self.line(line))
+    }
+
+    /// `text` as the terminal can show it, with our patches of colour.
+    fn shown(&self, text: &str) -> String {
+        if !self.screen.colors {
+            return printable(text).into_owned();
+        }
+        let mut shown = String::new();
+        // Start of the text that is not shown yet, and the place where we search.
+        let (mut start, mut from) = (0, 0);
+        while let Some(found) = text[from..].find(PATCH_START) {
+            let at = from + found;
+            from = at + PATCH_START.len();
+            if let Some(length) = patch_length(&text[at..]) {
+                shown += &printable(&text[start..at]);
+                shown += &text[at..at + length];
+                start = at + length;
+                from = start;
+            }
+        }
+        shown + &printable(&text[start..])
+    }
+
+    /// Prints a result as JSON. Characters that a terminal would obey are escaped as JSON does it, so that a program
+    /// reads them as they were.
     pub(crate) fn json(&mut self, value: &Value) -> Result<()> {
-        write!(self.results(), "{}", calibrate::library::to_text(value))?;
+        let mut text = calibrate::library::to_text(value);
+        if text.contains(is_obeyed) {
+            let letters = text.chars().map(|c| match is_obeyed(c) {
+                true => c.encode_utf16(&mut [0; 2]).iter().map(|u| format!("\\u{u:04x}")).collect(),
+                false => c.to_string(),
+            });
+            text = letters.collect();
+        }
+        write!(self.results(), "{text}")?;
         Ok(())
     }
 
@@ -100,7 +137,7 @@ impl Console<'_> {
 
     fn remark_at(&mut self, least: Voice, text: impl AsRef<str>) -> Result<()> {
         if self.voice >= least {
-            writeln!(self.err, "{}", text.as_ref())?;
+            writeln!(self.err, "{}", printable(text.as_ref()))?;
         }
         Ok(())
     }
@@ -142,8 +179,26 @@ impl Console<'_> {
             return String::new();
         }
         let [r, g, b] = color.to_bytes();
-        format!("\x1b[48;2;{r};{g};{b}m      \x1b[0m ")
+        format!("{PATCH_START}{r};{g};{b}{PATCH_END}")
     }
+}
+
+/// Whether a terminal obeys a character of JSON, which has several lines.
+fn is_obeyed(c: char) -> bool {
+    c != '\n' && documents::is_hidden(c)
+}
+
+/// Escape codes before the three numbers of a patch of colour.
+const PATCH_START: &str = "\x1b[48;2;";
+/// Blanks and escape codes after the three numbers.
+const PATCH_END: &str = "m      \x1b[0m ";
+
+/// Length in bytes of the patch of colour at the start of `text`.
+fn patch_length(text: &str) -> Option<usize> {
+    let numbers = text.strip_prefix(PATCH_START)?;
+    let end = numbers.find(|c: char| !(c.is_ascii_digit() || c == ';'))?;
+    let whole = end <= "255;255;255".len() && numbers[end..].starts_with(PATCH_END);
+    whole.then_some(PATCH_START.len() + end + PATCH_END.len())
 }
 
 /// Calls `call` and catches the lines that it prints on standard error. With `--verbose` we print them
@@ -219,7 +274,37 @@ fn quoted(word: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::quoted;
+    use super::*;
+
+    #[test]
+    fn only_patches_of_colour_reach_the_terminal_as_commands() {
+        let (mut out, mut err) = (Vec::new(), Vec::new());
+        for colors in [false, true] {
+            let screen = Screen { colors, ..Screen::default() };
+            let mut console = Console {
+                out: &mut out,
+                err: &mut err,
+                screen,
+                command: String::new(),
+                voice: Voice::Usual,
+                streamed: false,
+            };
+            let patch = console.patch(Rgb([1.0, 0.5, 0.0]));
+            let line = format!("\x1b[48;2;1m{patch}\x1b]0;owned\x07 {patch}Red\u{202e}\nerror: no");
+            console.line(&line).unwrap();
+            console.remark("Wrote \u{9b}31m.json").unwrap();
+            console.json(&serde_json::json!({"name": "\u{9b}\u{202e}\u{e0041}"})).unwrap();
+        }
+        let patch = "\x1b[48;2;255;128;0m      \x1b[0m ";
+        let text = |patch: &str| {
+            let line = format!(
+                "\\u{{1b}}[48;2;1m{patch}\\u{{1b}}]0;owned\\u{{7}} {patch}Red\\u{{202e}}\\u{{a}}error: no\n"
+            );
+            line + "{\n  \"name\": \"\\u009b\\u202e\\udb40\\udc41\"\n}\n"
+        };
+        assert_eq!(String::from_utf8(out).unwrap(), text("") + &text(patch));
+        assert_eq!(String::from_utf8(err).unwrap(), "Wrote \\u{9b}31m.json\n".repeat(2));
+    }
 
     #[test]
     fn a_shell_reads_back_what_was_quoted() {

@@ -5,6 +5,7 @@ use std::fmt;
 use std::io::{self, ErrorKind, Write};
 
 use documents::hint::{Explain, Fault, Hint};
+use documents::printable;
 use documents::request::RequestError;
 #[cfg(feature = "pictures")]
 use pictures::{PictureError, SettingError};
@@ -72,19 +73,20 @@ impl Failure {
         failure
     }
 
-    /// Writes `error:`, the causes and `hint:`, and returns the exit status.
+    /// Writes `error:`, the causes and `hint:`, each on a line that the terminal can show, and returns the exit
+    /// status.
     pub(crate) fn report(&self, err: &mut dyn Write) -> u8 {
         if self.pipe_closed {
             return 0;
         }
         for (index, message) in self.messages.iter().enumerate() {
             let _ = match index {
-                0 => writeln!(err, "error: {}", short_numbers(message)),
-                _ => writeln!(err, "  because: {}", short_numbers(message)),
+                0 => writeln!(err, "error: {}", short_numbers(&printable(message))),
+                _ => writeln!(err, "  because: {}", short_numbers(&printable(message))),
             };
         }
         if let Some(hint) = &self.hint {
-            let _ = writeln!(err, "hint: {}", short_numbers(&with_options(hint)));
+            let _ = writeln!(err, "hint: {}", short_numbers(&printable(&with_options(hint))));
         }
         self.status
     }
@@ -151,6 +153,8 @@ pub(crate) fn with_options(hint: &Hint) -> String {
             // The library of a verb is one of its words.
             ("pigments" | "library", None) => return "LIBRARY".to_owned(),
             ("reference", _) => "--white".to_owned(),
+            // No verb has an option for its temporary files.
+            ("scratch", folder) => return format!("TMPDIR={}", folder.unwrap_or("FOLDER")),
             _ => option_of(name),
         };
         value.map_or_else(|| option.clone(), |value| format!("{option} {value}"))

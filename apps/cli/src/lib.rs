@@ -64,9 +64,14 @@ pub fn run(
                 error.remove(ContextKind::SuggestedSubcommand);
             }
             // Requested help is a result, help after an error is not.
-            let text = error.render();
+            let text = error.render().to_string();
             let requested = !error.use_stderr();
-            let _ = if requested { write!(out, "{text}") } else { write!(err, "{text}") };
+            if requested {
+                let _ = write!(out, "{text}");
+            }
+            for line in text.lines().filter(|_| !requested) {
+                let _ = writeln!(err, "{}", documents::printable(line));
+            }
             if let (Some(_), Some(lacking)) = (left_out, verbs::LACKING) {
                 let _ = writeln!(err, "\nhint: {lacking}");
             }

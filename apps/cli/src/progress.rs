@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use documents::Task;
+use documents::{Task, printable};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::console::Console;
@@ -110,7 +110,9 @@ impl Waiting {
     /// A task that shows its stages after `label` on the screen.
     pub(crate) fn task(&self, label: &'static str) -> Task {
         let bar = self.bar.clone();
-        Task::observed(move |progress| bar.set_message(format!("{label}: {}", progress.stage)))
+        Task::observed(move |progress| {
+            bar.set_message(format!("{label}: {}", printable(&progress.stage)))
+        })
     }
 }
 
@@ -134,7 +136,7 @@ impl Following {
     pub(crate) fn task(&self) -> Task {
         let bar = self.0.bar.clone();
         Task::observed(move |progress| {
-            bar.set_message(progress.stage.to_string());
+            bar.set_message(printable(&progress.stage).into_owned());
             if progress.of > 0 {
                 if bar.length().is_none() {
                     bar.set_style(counting());

@@ -5,7 +5,7 @@
 
 use std::fmt;
 
-use documents::name_list;
+use documents::{column_width, name_list};
 use pigment::evaluate::{Summary, delta_e, percentile};
 use pigment::library::{Evidence, SampleEvidence};
 use pigment::{PigmentId, digits::rounded};
@@ -102,7 +102,7 @@ impl fmt::Display for ErrorReport<'_> {
         }
         let mut sorted: Vec<&SampleEvidence> = self.samples.iter().collect();
         sorted.sort_by(|a, b| b.delta_e.total_cmp(&a.delta_e));
-        let width = sorted.iter().map(|s| s.sample.chars().count()).max().unwrap_or(0);
+        let width = column_width(sorted.iter().map(|s| &s.sample), 0);
         let cells: Vec<String> = sorted
             .iter()
             .take(self.shown)

@@ -131,6 +131,8 @@ fn map_shard_of<E: Error + 'static>(
             return Ok(None);
         }
     }
+    // A shard of another scan is never finished.
+    cube.check_unchanged()?;
     writer.finish()?;
     Ok(Some(counts))
 }

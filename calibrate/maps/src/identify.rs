@@ -374,7 +374,7 @@ impl IdentifiedSpectrum {
         };
         let likely: Vec<&SpotPigment> =
             self.pigments.iter().filter(|one| one.presence >= LEAST_SHOWN).collect();
-        let width = likely.iter().map(|one| one.name.chars().count()).max().unwrap_or(0);
+        let width = documents::column_width(likely.iter().map(|one| &one.name), 0);
         for SpotPigment { name, share, share_sd, presence } in likely {
             let [share, sd] = [share, share_sd].map(|part| percent(*part));
             let sure = 100.0 * presence;

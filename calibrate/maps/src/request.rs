@@ -197,7 +197,10 @@ impl MapRequest {
         scan: &SurveyedScan,
         library: &PigmentLibrary,
     ) -> Result<Vec<Spot>, SpotError> {
-        self.spots.iter().map(|region| scan.spot(library, region.clone())).collect()
+        let spots = self.spots.iter().map(|region| scan.spot(library, region.clone())).collect();
+        #[cfg(feature = "files")]
+        scan.cube().check_unchanged()?;
+        spots
     }
 
     /// Surveys a scan, maps every pixel of it into the folder `maps`, and maps the spots. `task` counts the

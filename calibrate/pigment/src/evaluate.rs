@@ -134,6 +134,9 @@ const NEEDED_NM: [f64; 2] = [400.0, 700.0];
 /// A grid should cover this band in nm, because it holds nearly all of the luminance and chroma.
 pub(crate) const WANTED_NM: [f64; 2] = [420.0, 680.0];
 
+/// Above this step in nm a grid is too coarse for the absorption bands of most pigments. We chose it by eye.
+pub(crate) const COARSE_STEP_NM: f64 = 20.0;
+
 /// Part of the visible band that a grid covers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BandCoverage {
@@ -162,20 +165,28 @@ impl BandCoverage {
 }
 
 /// Checks that spectra on `grid` have colours. You get a warning if the grid covers only a part of the
-/// visible band.
+/// visible band, or if its steps are coarse: above 20 nm.
 ///
 /// # Errors
 /// [`BandError`] for a grid without any visible wavelength.
 pub fn check_visible_band(grid: Grid) -> Result<Option<Remark>, BandError> {
     let start_nm = grid.start_nm();
     let end_nm = grid.end_nm();
-    match BandCoverage::of(grid) {
-        BandCoverage::Full => Ok(None),
-        BandCoverage::Partial => Ok(Some(Remark::warning(format!(
+    let part = match BandCoverage::of(grid) {
+        BandCoverage::Full => None,
+        BandCoverage::Partial => Some(format!(
             "spectra from {start_nm} to {end_nm} nm; colours take the end values for the rest of the visible band"
-        )))),
-        BandCoverage::Missing => Err(BandError { start_nm, end_nm }),
-    }
+        )),
+        BandCoverage::Missing => return Err(BandError { start_nm, end_nm }),
+    };
+    let step = grid.step_nm();
+    let coarse = (step > COARSE_STEP_NM).then(|| {
+        format!(
+            "spectra in steps of {step} nm; colours between them are a guess, measure in steps of {COARSE_STEP_NM} nm or less"
+        )
+    });
+    let texts: Vec<String> = part.into_iter().chain(coarse).collect();
+    Ok((!texts.is_empty()).then(|| Remark::warning(texts.join("; "))))
 }
 
 /// At most so many nm from 420 to 680 may be missing for the colour of a measurement.
@@ -222,7 +233,25 @@ mod tests {
         }
         let most = check_has_color(Grid::from_range(450.0, 950.0, 10.0).unwrap()).unwrap();
         assert!(most.is_some_and(|remark| remark.text.contains("end values")));
-        assert_eq!(check_has_color(Grid::from_range(400.0, 700.0, 10.0).unwrap()), Ok(None));
+        for step in [10.0, 20.0] {
+            assert_eq!(check_has_color(Grid::from_range(400.0, 700.0, step).unwrap()), Ok(None));
+        }
+    }
+
+    fn warning(first: f64, last: f64, step: f64) -> String {
+        let found = check_visible_band(Grid::from_range(first, last, step).unwrap()).unwrap();
+        found.map(|remark| remark.text).unwrap_or_default()
+    }
+
+    #[test]
+    fn coarse_steps_are_a_warning() {
+        assert!(warning(400.0, 700.0, 300.0).starts_with("spectra in steps of 300 nm; "));
+        let both = warning(500.0, 650.0, 50.0);
+        assert!(
+            both.contains("end values") && both.contains("; spectra in steps of 50 nm"),
+            "{both}"
+        );
+        assert_eq!(warning(400.0, 700.0, 20.0), "");
     }
 
     #[test]

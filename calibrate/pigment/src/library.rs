@@ -7,7 +7,7 @@ use std::path::Path;
 
 use documents::file::{FileError, read, write_whole};
 use documents::hint::Explain;
-use documents::{counted, name_list, question};
+use documents::{counted, excerpt, is_hidden, name_list, name_violation, question};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -529,6 +529,9 @@ impl PigmentLibrary {
             pigment: pigment.to_owned(),
             what,
         };
+        if self.title.contains(is_hidden) {
+            return Err(fault("", "the title needs a text without control characters".into()));
+        }
         if self.pigments.is_empty() {
             return Err(fault("", "a library holds at least one pigment".into()));
         }
@@ -543,6 +546,11 @@ impl PigmentLibrary {
         }
         for (index, pigment) in self.pigments.iter().enumerate() {
             let name = pigment.name.as_str();
+            if let Some(wanted) = name_violation(name) {
+                let found = excerpt(name);
+                let what = format!("pigment number {} needs {wanted}, found `{found}`", index + 1);
+                return Err(fault("", what));
+            }
             if self.pigments[..index].iter().any(|other| other.name == name) {
                 return Err(fault(name, "the name occurs twice".into()));
             }
@@ -687,7 +695,7 @@ pub enum LibraryError {
         newest: u64,
     },
     /// A value is impossible, or values are missing.
-    #[error("{file}: pigment {pigment}: {what}")]
+    #[error("{file}: {}{what}", if pigment.is_empty() { String::new() } else { format!("pigment {pigment}: ") })]
     Figures {
         /// File name as the caller gave it.
         file: String,

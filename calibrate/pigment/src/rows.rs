@@ -1,5 +1,6 @@
 //! Rows of JSON as CSV, in the same form from every program.
 
+use documents::spreadsheet_cell;
 use serde_json::Value;
 
 /// Keys of JSON that hold a colour as a list, each with names for its columns.
@@ -13,7 +14,8 @@ const COLORS: [(&str, &[&str]); 5] = [
 
 /// Writes objects as CSV, one row each. Every key of any object becomes a column, in the order in which keys
 /// first occur. Keys of an inner object become columns such as `outer_inner`. Colours become a column for
-/// each value, the parts of other lists are separated by semicolons, and null is an empty cell.
+/// each value, the parts of other lists are separated by semicolons, and null is an empty cell. Texts that a
+/// spreadsheet would take for formulas begin with `'`, see [`spreadsheet_cell`].
 ///
 /// ```
 /// use pigment::rows::csv_of;
@@ -32,7 +34,8 @@ pub fn csv_of(rows: &[Value]) -> String {
         }
     }
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let mut records = vec![headings.clone()];
+    let shown: Vec<_> = headings.iter().map(|heading| spreadsheet_cell(heading)).collect();
+    let mut records = vec![shown.iter().map(|name| &**name).collect::<Vec<&str>>()];
     for row in &rows {
         let cells = headings.iter().map(|heading| {
             let cell = row.iter().find(|(name, _)| name == heading);
@@ -79,7 +82,7 @@ fn cells(row: &Value) -> Vec<(String, String)> {
 fn cell(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
-        Value::String(text) => text.clone(),
+        Value::String(text) => spreadsheet_cell(text).into_owned(),
         Value::Array(parts) => parts.iter().map(cell).collect::<Vec<_>>().join("; "),
         other => other.to_string(),
     }

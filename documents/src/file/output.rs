@@ -4,6 +4,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::replace::resolved;
 use super::whole::{FileAction, FileError, STANDARD_INPUT, check_writable, write_whole};
 use crate::hint::Explain;
 
@@ -51,12 +52,7 @@ impl Output {
         if is_stream(path) {
             return Ok(Self { path: path.to_owned(), target: path.to_owned() });
         }
-        let target = path.canonicalize().or_else(|_| std::path::absolute(path));
-        let target = target.map_err(|reason| FileError {
-            path: path.to_owned(),
-            action: FileAction::Write,
-            reason: reason.into(),
-        })?;
+        let target = target_of(path)?;
         if target.exists() && !target.is_file() {
             return Err(OutputError::NotAFile(path.to_owned()));
         }
@@ -69,6 +65,26 @@ impl Output {
         }
         check_writable(path)?;
         Ok(Self { path: path.to_owned(), target })
+    }
+
+    /// Checks that the file at the relative path `inside` can be written like [`Output::open`], and lies below `folder`.
+    /// A link may not lead out of it. Use this for paths that a stranger's file names.
+    ///
+    /// # Errors
+    /// [`OutputError`] in the cases of [`Output::open`], and for a file that is not below `folder`.
+    pub fn below(folder: &Path, inside: &Path, inputs: &[PathBuf]) -> Result<Self, OutputError> {
+        let path = folder.join(inside);
+        if !target_of(&path)?.starts_with(target_of(folder)?) {
+            return Err(OutputError::Outside { path, folder: folder.to_owned() });
+        }
+        match path.parent().zip(path.file_name()) {
+            // The folder is made later.
+            Some((parent, name)) if !parent.exists() && parent != Path::new("") => {
+                let parent = OutputFolder::open(parent, inputs)?;
+                Ok(Self { target: target_of(&path)?, path: parent.path().join(name) })
+            }
+            _ => Self::open(&path, inputs),
+        }
     }
 
     /// Checks that `path` has one of `endings` and can be written, like [`Output::open`].
@@ -102,6 +118,12 @@ impl Output {
         OutputError::UsedTwice(self.path.clone())
     }
 
+    /// Whether a file lies there already, which the output replaces.
+    #[must_use]
+    pub fn replaces(&self) -> bool {
+        self.target.exists()
+    }
+
     /// Whether both outputs are the same file.
     #[must_use]
     pub fn is_same_as(&self, other: &Self) -> bool {
@@ -121,6 +143,15 @@ impl Output {
     pub fn put(&self, content: impl AsRef<[u8]>) -> Result<(), FileError> {
         write_whole(&self.path, content.as_ref())
     }
+}
+
+/// `path` with its links resolved.
+fn target_of(path: &Path) -> Result<PathBuf, FileError> {
+    resolved(path).map_err(|reason| FileError {
+        path: path.to_owned(),
+        action: FileAction::Write,
+        reason: reason.into(),
+    })
 }
 
 /// Refuses two outputs of one file. `None` stands for an output that is not wanted.
@@ -252,6 +283,16 @@ pub enum OutputError {
     #[error("{}: is an input file, which is never overwritten", .0.display())]
     #[hint("give the output another file name")]
     Input(PathBuf),
+    /// A link leads out of the folder that holds the files of a stranger.
+    #[error("{}: a link leads out of the folder {}", path.display(), folder.display())]
+    #[hint("remove the link, or name a file below the folder")]
+    #[fault(Input)]
+    Outside {
+        /// Path of the file.
+        path: PathBuf,
+        /// The folder below which it must lie.
+        folder: PathBuf,
+    },
     /// The name of the file has another ending.
     #[error("{}: expected a file name that ends in .{}", path.display(), endings.join(" or ."))]
     #[hint(verbatim, "try {}", path.with_extension(endings.first().unwrap_or(&"")).display())]
@@ -303,6 +344,44 @@ mod tests {
         let error = named.unwrap_err();
         assert!(error.to_string().ends_with("that ends in .png or .tif"), "{error}");
         assert!(error.hint().unwrap().to_string().ends_with("b.png"), "{error:?}");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_followed_and_stay_below_a_folder() {
+        use std::os::unix::fs::symlink;
+
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        std::fs::create_dir_all(at("inside/deep")).unwrap();
+        for (link, to) in [
+            ("inside/dangling.png", "deep/new.png"),
+            ("inside/again.png", "dangling.png"),
+            ("inside/out.png", "../victim.png"),
+            ("inside/up", ".."),
+            ("inside/gone", "../missing"),
+            ("inside/circle.png", "circle.png"),
+        ] {
+            symlink(to, at(link)).unwrap();
+        }
+        let again = Output::open(&at("inside/again.png"), &[]).unwrap();
+        let new = Output::open(&at("inside/deep/new.png"), &[]).unwrap();
+        assert!(again.is_same_as(&new) && !again.replaces());
+        again.put("one").unwrap();
+        assert!(new.replaces() && at("inside/again.png").is_symlink());
+        assert!(at("inside/dangling.png").is_symlink());
+        assert_eq!(std::fs::read(at("inside/deep/new.png")).unwrap(), b"one");
+        assert!(Output::open(&at("inside/circle.png"), &[]).is_err(), "links in a circle");
+
+        let inside = at("inside");
+        for name in ["a.png", "deep/b.png", "new/c.png", "dangling.png", "again.png"] {
+            Output::below(&inside, Path::new(name), &[]).unwrap();
+        }
+        for name in ["out.png", "up/d.png", "gone/e.png", "up/new/f.png", "../g.png"] {
+            let error = Output::below(&inside, Path::new(name), &[]).unwrap_err();
+            assert!(matches!(error, OutputError::Outside { .. }), "{name}: {error}");
+        }
+        assert!(!at("inside/new").exists(), "the check makes no folder");
     }
 
     #[test]

@@ -65,9 +65,36 @@ impl Replacement {
     }
 }
 
+/// A chain of links is followed this far, as Linux does it.
+const MOST_LINKS: usize = 40;
+
+/// `path` from the root on with all symbolic links resolved, also those that lead to a file or a folder that does not
+/// exist yet.
+///
+/// # Errors
+/// If links lead in a circle, or the current folder is not known.
+pub(super) fn resolved(path: &Path) -> io::Result<PathBuf> {
+    let mut whole = std::path::absolute(path)?;
+    for _ in 0..MOST_LINKS {
+        if let Ok(found) = whole.canonicalize() {
+            return Ok(found);
+        }
+        let (Some(folder), Some(name)) = (whole.parent(), whole.file_name()) else {
+            return Err(io::ErrorKind::NotFound.into());
+        };
+        let folder = resolved(folder)?;
+        match folder.join(name).read_link() {
+            // An absolute link replaces the folder.
+            Ok(link) => whole = folder.join(link),
+            Err(_) => return Ok(folder.join(name)),
+        }
+    }
+    Err(io::Error::other("the links lead in a circle"))
+}
+
 /// Resolves symbolic links in `path`. Returns the target and the folder that contains it.
 fn target(path: &Path) -> io::Result<(PathBuf, PathBuf)> {
-    let target = path.canonicalize().or_else(|_| std::path::absolute(path))?;
+    let target = resolved(path)?;
     let folder = target.parent().unwrap_or(Path::new(".")).to_owned();
     Ok((target, folder))
 }

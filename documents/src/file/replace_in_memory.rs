@@ -1,7 +1,7 @@
 //! The operations of `replace` in a page, where files lie in memory.
 
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::disk;
 
@@ -17,6 +17,11 @@ pub(super) fn check(path: &Path) -> io::Result<()> {
         Some(folder) if disk::is_dir(folder) => Err(io::ErrorKind::IsADirectory.into()),
         _ => Err(io::ErrorKind::NotFound.into()),
     }
+}
+
+/// `path` from the root on. There are no links in memory.
+pub(super) fn resolved(path: &Path) -> io::Result<PathBuf> {
+    disk::absolute(path)
 }
 
 pub(super) fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {

@@ -166,7 +166,7 @@ impl ScriptRequest {
             Some((start, _)) => start.library.clone(),
             None => self.library_of(&script, &folder, &mut |note| written.pass(note, listener))?,
         };
-        script.resolve(&library)?;
+        script.resolve(&library).map_err(|error| error.in_file(&name))?;
         let saves = script.actions.iter().any(|action| matches!(action, Action::Save { .. }));
         let mut inputs = vec![path.clone()];
         inputs.extend(self.library.clone());
@@ -419,9 +419,14 @@ impl ScriptJob {
         let report = self.script.replay(
             session,
             |path, painting| {
-                let output = self.save(path, painting, listener)?;
+                let (output, replaced) = self.save(path, painting, listener)?;
                 // A script may save one file many times.
                 if saved.insert(output.path().to_owned()) {
+                    if replaced {
+                        let path = output.path().display();
+                        let note = format!("{path}: the script replaced this file");
+                        listener(Note::Remark(Remark::note(note)));
+                    }
                     listener(Note::Wrote(output.path().to_owned()));
                 }
                 Ok(())
@@ -434,18 +439,18 @@ impl ScriptJob {
         report.map_err(replay_error)
     }
 
-    /// Carries out a save action of the script: a PNG picture, or the painting itself.
+    /// Carries out a save action of the script: a PNG picture, or the painting itself. Returns also whether a file lay
+    /// there before.
     fn save(
         &self,
         path: &str,
         painting: &mut Painting,
         listener: &mut Listener<'_>,
-    ) -> Result<Output, PictureError> {
-        let path = self.folder.join(path);
-        if let Some(parent) = path.parent() {
+    ) -> Result<(Output, bool), PictureError> {
+        let output = Output::below(&self.folder, Path::new(path), &self.inputs)?;
+        if let Some(parent) = output.path().parent() {
             create_folder(parent)?;
         }
-        let output = Output::open(&path, &self.inputs)?;
         let path = output.path();
         let bytes = if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")) {
             let picture = painting.picture()?;
@@ -457,8 +462,9 @@ impl ScriptJob {
         } else {
             painting_file::write(&painting.document()?)?
         };
+        let replaces = output.replaces();
         output.put(bytes)?;
-        Ok(output)
+        Ok((output, replaces))
     }
 }
 
@@ -484,21 +490,13 @@ fn check_saves(
         if let Action::Save { path } = action
             && checked.insert(path)
         {
-            check_save(&folder.join(path), inputs)
-                .map_err(|error| error.within(format!("action {} (save)", index + 1)))?;
+            let output = Output::below(folder, Path::new(path), inputs);
+            output.map_err(|error| {
+                PictureError::from(error).within(format!("action {} (save)", index + 1))
+            })?;
         }
     }
     Ok(())
-}
-
-/// Checks that you can write the file at `path`. Its folder may be missing, since we make it later.
-fn check_save(path: &Path, inputs: &[PathBuf]) -> Result<(), PictureError> {
-    match (path.parent(), path.file_name().and_then(|name| name.to_str())) {
-        (Some(parent), Some(name)) if !parent.exists() && parent != Path::new("") => {
-            Ok(OutputFolder::open(parent, inputs)?.check([name.to_owned()])?)
-        }
-        _ => Ok(Output::open(path, inputs).map(drop)?),
-    }
 }
 
 /// A script that was painted, and its files.
@@ -590,6 +588,10 @@ mod tests {
         let saved = request.run(&Task::default()).unwrap();
         assert_eq!(saved.files, [file("saved/a.png")]);
         assert_eq!(keys(&saved), "actions strokes substeps cells backend canvas");
+        assert!(saved.remarks.is_empty(), "{:?}", saved.remarks);
+        let again = request.run(&Task::default()).unwrap();
+        assert_eq!(again.remarks.len(), 1, "{:?}", again.remarks);
+        assert!(again.remarks[0].ends_with("saved/a.png: the script replaced this file"));
 
         request.exports.picture = Some(file("b.png"));
         request.timelapse.file = Some(file("film.gif"));
@@ -645,6 +647,19 @@ mod tests {
         assert!(error.source().unwrap().to_string().contains("action 4 (save)"), "{error:?}");
         let names = std::fs::read_dir(folder.path()).unwrap();
         assert_eq!(names.count(), 2, "only the script and the file are there");
+
+        #[cfg(unix)]
+        {
+            let apart = tempfile::tempdir().unwrap();
+            let victim = apart.path().join("a.png");
+            std::fs::write(&victim, "mine").unwrap();
+            std::fs::remove_file(folder.path().join("saved")).unwrap();
+            std::os::unix::fs::symlink(apart.path(), folder.path().join("saved")).unwrap();
+            let error = request_of(folder.path(), SCRIPT).run(&Task::default()).unwrap_err();
+            let cause = error.source().unwrap().source().unwrap().to_string();
+            assert!(cause.contains("saved/a.png: a link leads out of the folder"), "{error:?}");
+            assert_eq!(std::fs::read(&victim).unwrap(), b"mine");
+        }
 
         let picture = folder.path().join("photo.jpg");
         std::fs::write(&picture, b"\xff\xd8\xff\xe0 a picture").unwrap();

@@ -443,14 +443,7 @@ impl InstrumentError {
     /// An error for a line that does not follow the format. This shortens the text and makes it
     /// printable.
     pub(super) fn line(file: &str, line: usize, expected: &'static str, text: &str) -> Self {
-        const LONGEST: usize = 60;
-        let text = text.trim();
-        let mut short: String = text.chars().take(LONGEST).collect();
-        if short.len() < text.len() {
-            short.push_str(" ..");
-        }
-        let text = short.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-        Self::Line { file: file.to_owned(), line, expected, text }
+        Self::Line { file: file.to_owned(), line, expected, text: documents::excerpt(text) }
     }
 
     pub(super) fn too_large(file: &str, what: impl Into<String>, most_mb: usize) -> Self {

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use documents::file::{self, FileError};
 use documents::hint::Explain;
+use documents::{from_spreadsheet_cell, name_violation, plain_name};
 
 use super::format::{ContentKind, FileText, Format};
 use super::measured::{
@@ -173,10 +174,17 @@ fn read_binary(
 fn checked(
     file: &str,
     format: Format,
-    spectra: Vec<MeasuredSpectrum>,
+    mut spectra: Vec<MeasuredSpectrum>,
 ) -> Result<InstrumentFile, InstrumentError> {
     if spectra.is_empty() {
         return Err(InstrumentError::Empty { file: file.to_owned(), format: format.title() });
+    }
+    for spectrum in &mut spectra {
+        let name = plain_name(from_spreadsheet_cell(&spectrum.name));
+        if let Some(wanted) = name_violation(&name).filter(|_| !name.is_empty()) {
+            return Err(InstrumentError::line(file, spectrum.line, wanted, &name));
+        }
+        spectrum.name = name;
     }
     Ok(InstrumentFile { format, spectra })
 }

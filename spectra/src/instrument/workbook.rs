@@ -163,8 +163,7 @@ fn content(cell: &DataRef<'_>) -> Option<Content> {
 }
 
 fn text_content(text: &str) -> Option<Content> {
-    let plain: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-    let plain = plain.trim().to_owned();
+    let plain = documents::plain_name(text);
     (!plain.is_empty()).then_some(Content::Text(plain))
 }
 

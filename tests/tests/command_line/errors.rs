@@ -732,3 +732,37 @@ fn pigments_can_be_named() {
     let one = ["fit", "FILE", "--pigments", "White", "--pigments", "Blue"];
     refused_by_name(&run("lab.csv", table.as_bytes(), &one), &["`Blue`", "heading of a column"]);
 }
+
+#[test]
+fn a_style_or_script_with_a_fault_is_told_with_its_file() {
+    let style = std::fs::read_to_string(repository(
+        "render/techniques/artmap/src/painted/styles/dabs.toml",
+    ));
+    let style = style.unwrap();
+    let paint = ["artmap", "paint", "--style", "FILE", "-o", "no/such/folder.exr"];
+    for (from, to, word) in [
+        ("cell_mm = 0.18", "cell_mm = -1.0", "style.toml, style dabs: canvas.cell_mm is"),
+        ("seed = 1", "seeds = 1", "style.toml, line "),
+        ("seed = 1", "seed = -1", "style.toml, line "),
+    ] {
+        assert!(style.contains(from), "{from}");
+        let changed = style.replacen(from, to, 1);
+        refused_by_name(&run("style.toml", changed.as_bytes(), &paint), &[word]);
+    }
+    let script = r#"{"format": "strokes", "version": 1, "title": "A",
+        "canvas": {"width_mm": 4, "height_mm": 4, "cell_mm": 0.2}, "palette": {"W": "Octarine"},
+        "brushes": {}, "actions": [{"save": {"path": "a.png"}}]}"#;
+    let told = run("script.json", script.as_bytes(), &["paint", "FILE"]);
+    refused_by_name(&told, &["script.json: palette: a pigment of the library, found `Octarine`"]);
+}
+
+#[test]
+fn a_table_without_headings_is_told_with_its_name() {
+    for text in [",,\n,,\n", "\n\n;;\n", "\"\"\n1\n"] {
+        let told = run("empty.csv", text.as_bytes(), &["fit", "FILE"]);
+        refused_by_name(&told, &["empty.csv"]);
+    }
+    let told = run("two.csv", b"sample,400,700\na,0.2,0.3\nb,0.5,0.6\n", &["color", "FILE"]);
+    assert_eq!(told.status, 0, "{}", told.err);
+    assert!(told.err.contains("warning: spectra in steps of 300 nm"), "{}", told.err);
+}

@@ -10,5 +10,6 @@ mod painterly;
 mod request_page;
 mod requests;
 mod stencil;
+mod strangers;
 mod verbs;
 mod vocabulary;

@@ -34,6 +34,44 @@ fn every_shader_is_part_of_a_kernel() {
     }
 }
 
+/// Whether a content security policy lets a page load nothing from other hosts, and run no code but its own.
+fn is_strict(policy: &str) -> bool {
+    let rules: Vec<Vec<&str>> =
+        policy.split(';').map(|rule| rule.split_whitespace().collect()).collect();
+    let sources = |name: &str| rules.iter().find(|rule| rule[0] == name).map(|rule| &rule[1..]);
+    let own = ["'self'", "'none'", "'wasm-unsafe-eval'", "'unsafe-inline'", "data:", "blob:"];
+    sources("default-src") == Some(&["'none'"])
+        && sources("script-src") == Some(&["'self'", "'wasm-unsafe-eval'"])
+        && sources("base-uri") == Some(&["'none'"])
+        && sources("form-action") == Some(&["'none'"])
+        && rules.iter().flat_map(|rule| &rule[1..]).all(|source| own.contains(source))
+}
+
+#[test]
+fn every_page_has_a_strict_content_security_policy() {
+    let pages = files_below("apps/web");
+    let pages: Vec<_> = pages.iter().filter(|path| path.ends_with("/page/index.html")).collect();
+    assert_eq!(pages.len(), 2, "{pages:?}");
+    for path in pages {
+        let page = text(path);
+        let start = "<meta http-equiv=\"Content-Security-Policy\" content=\"";
+        let policy = page.split_once(start).and_then(|(_, rest)| rest.split_once('"'));
+        let (policy, _) = policy.unwrap_or_else(|| panic!("{path} has no policy"));
+        assert!(is_strict(policy), "{path}: {policy}");
+        let (before, _) = page.split_once(start).unwrap();
+        assert!(!before.contains("<script") && !before.contains("<link"), "{path}: it comes late");
+    }
+    let usual = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; form-action 'none'; base-uri 'none'";
+    assert!(is_strict(usual));
+    for (rule, other) in [
+        ("'wasm-unsafe-eval'", "'unsafe-eval'"),
+        ("default-src 'none'", "default-src *"),
+        ("base-uri 'none'", "base-uri 'none'; img-src https://elsewhere.org"),
+    ] {
+        assert!(!is_strict(&usual.replace(rule, other)), "{other}");
+    }
+}
+
 #[test]
 fn every_shipped_table_has_its_source() {
     let sources = text("spectra/data/SOURCES.md");

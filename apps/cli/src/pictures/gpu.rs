@@ -62,7 +62,8 @@ impl Gpu {
         }
         for (adapter, number) in found.iter().zip(1..) {
             let side = side(adapter);
-            console.line(format!("\n{number}. {}", adapter.name))?;
+            console.line("")?;
+            console.line(format!("{number}. {}", adapter.name))?;
             console.line(format!("   {}, {}", adapter.kind.name(), adapter.backend))?;
             if !adapter.driver.is_empty() {
                 console.line(format!("   driver {}", adapter.driver))?;

@@ -52,7 +52,7 @@ impl<T: Styled> ShowPreset<T> {
     /// Prints the preset, if one is asked for, and says whether it did.
     pub(crate) fn print(&self, console: &mut Console<'_>) -> Result<bool> {
         if let Some(preset) = self.show_preset {
-            console.line(preset.text().trim_end())?;
+            console.lines(preset.text())?;
         }
         Ok(self.show_preset.is_some())
     }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use calibrate::agreement::SetComparison;
 use calibrate::evaluate::Viewing;
 use calibrate::{CompareRequest, compare_sets};
-use documents::counted;
+use documents::{column_width, counted};
 use serde_json::Value;
 
 use crate::console::Console;
@@ -62,7 +62,7 @@ impl Against<'_> {
 fn print(found: &SetComparison, console: &mut Console<'_>) -> Result<()> {
     let Viewing { illuminant, observer } = &found.viewing;
     console.line(format!("{}, observer {observer}", illuminant.name()))?;
-    let width = found.samples.iter().map(|s| s.name.chars().count()).max().unwrap_or(0).max(6);
+    let width = column_width(found.samples.iter().map(|s| &s.name), 6);
     console.line(format!("{:width$}  CIEDE2000     dL*     da*     db*", "sample"))?;
     for sample in &found.samples {
         let [dl, da, db] = [0, 1, 2]

@@ -7,6 +7,7 @@ use calibrate::IlluminantChange;
 use calibrate::evaluate::Viewing;
 use calibrate::measurement::AveragedSpectrum;
 use clap::{Args, ValueEnum};
+use documents::column_width;
 use documents::file::is_there;
 use serde_json::{Value, json};
 
@@ -302,7 +303,7 @@ impl ColorTable {
         }
         let colors = self.heading();
         let differences = self.differences_heading(light);
-        let longest = rows.iter().map(|row| row.name.chars().count()).max().unwrap_or(0);
+        let longest = column_width(rows.iter().map(|row| &row.name), 0);
         let patch = if console.screen.colors { PATCH } else { 0 };
         let display = DISPLAY.len() + patch;
         let apart = longest + 1 + colors.len() + differences.len() + display > WIDEST;
@@ -336,7 +337,7 @@ impl ColorTable {
             if !apart {
                 line += &self.differences(row, light);
             }
-            console.line(format!("{line}  {}", colors.cell(*rgb, console)).trim_end())?;
+            console.lines(format!("{line}  {}", colors.cell(*rgb, console)).trim_end())?;
         }
         colors.note("", console)?;
         for note in notes {
@@ -346,7 +347,7 @@ impl ColorTable {
             let width = name_width(longest, 1 + differences.len());
             console.line(format!("{:width$} {differences}", "sample"))?;
             for row in rows {
-                console.line(named(&row.name, width) + &self.differences(row, light))?;
+                console.lines(named(&row.name, width) + &self.differences(row, light))?;
             }
         }
         Ok(())
@@ -387,7 +388,7 @@ impl ColorTable {
             difference.ciede2000, difference.cie1976, difference.cie94, difference.cmc_2_1,
         );
         if light > 0 {
-            let width = self.change_heading(light).chars().count().max(10);
+            let width = column_width([self.change_heading(light)], 10);
             let index = self.metamerism(standard, row, light);
             cells += &index.map_or_else(
                 || format!("  {:>width$}", "-"),

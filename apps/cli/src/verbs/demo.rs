@@ -65,7 +65,7 @@ impl Demo {
         library::print_pigments(library, &viewing, console)?;
         console.line("")?;
         console.line("How well the fit reproduces its samples, worst first:")?;
-        console.line(fit.report().with_samples(12).to_string())?;
+        console.lines(fit.report().with_samples(12).to_string())?;
         console.line("")?;
         console.line("Not identified by the data, or inconsistent with it:")?;
         for warning in fit.warnings() {

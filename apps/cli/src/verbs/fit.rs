@@ -82,7 +82,7 @@ impl Fit {
             return console.json(&timed(fit.errors_json(), start.elapsed().as_secs_f64()));
         }
         console.warnings(fit.warnings())?;
-        console.line(fit.report().to_string())?;
+        console.lines(fit.report().to_string())?;
         if !wrote {
             console.remark("Wrote nothing; give --output LIBRARY.json to keep the library")?;
         }

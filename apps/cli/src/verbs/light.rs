@@ -148,8 +148,8 @@ impl Described {
 }
 
 fn print(lights: &[Described], console: &mut Console<'_>) -> Result<()> {
-    let names = lights.iter().map(|described| described.light.name().chars().count());
-    let width = names.max().unwrap_or(0).max("light".len());
+    let names = lights.iter().map(|described| described.light.name());
+    let width = documents::column_width(names, "light".len());
     let headings = ["x", "y", "CCT, K", "Duv", "Ra", "R9", "Rf", "Rg"];
     let headings: String = headings.iter().map(|name| format!(" {name:>WIDTH$}")).collect();
     console.line(format!("{:width$}{headings}", "light"))?;

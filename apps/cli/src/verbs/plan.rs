@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use calibrate::plan::{Forecast, MeasurementForm, PaintSet, Plan as PlanReportPlan, PlanRequest};
 use clap::{Arg, Args};
-use documents::Task;
 use documents::file::is_stream;
+use documents::{Task, column_width};
 use spectra::Grid;
 
 use crate::console::Console;
@@ -217,8 +217,8 @@ pub(super) fn print_swatches(plan: &PlanReportPlan, console: &mut Console<'_>) -
         parts.collect::<Vec<_>>().join(" + ")
     });
     let recipes: Vec<String> = recipes.collect();
-    let width = plan.swatches.iter().map(|s| s.name.chars().count()).max().unwrap_or(0);
-    let recipe_width = recipes.iter().map(|text| text.chars().count()).max().unwrap_or(0);
+    let width = column_width(plan.swatches.iter().map(|s| &s.name), 0);
+    let recipe_width = column_width(&recipes, 0);
     for (swatch, recipe) in plan.swatches.iter().zip(&recipes) {
         let name = &swatch.name;
         let purpose = swatch.recipe.purpose;
@@ -250,7 +250,7 @@ pub(super) fn print_forecast(
         "Predicted standard deviations, in percent of K and S, median over wavelength (noise {}, {:.3}):",
         forecast.noise.constant, forecast.noise.even
     ))?;
-    let width = paints.names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
+    let width = column_width(&paints.names, 0);
     console.line(format!("{:width$}       K       S   usual K  usual S", ""))?;
     let percent = |value: f64| match 100.0 * value {
         large if large > 999.0 => ">999".to_owned(),

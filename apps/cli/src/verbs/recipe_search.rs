@@ -10,7 +10,7 @@ use calibrate::matching::{
     SpectrumWeights, ToleranceOrigin, parse_share,
 };
 use clap::{Arg, Args};
-use documents::Task;
+use documents::{Task, column_width};
 use serde_json::{Map, Value, json};
 use spectra::color::{Lab, Rgb, RgbSpace};
 
@@ -331,7 +331,7 @@ impl RecipeReport<'_> {
     /// Returns one line per pigment of a recipe.
     fn parts(&self, recipe: &RecipeMatch) -> Vec<String> {
         let names = recipe.shares.iter().map(|(id, _)| &self.library[*id]);
-        let width = names.clone().map(|p| p.name.chars().count()).max().unwrap_or(0);
+        let width = column_width(names.clone().map(|p| &p.name), 0);
         let mut lines = Vec::new();
         for (place, ((id, share), pigment)) in recipe.shares.iter().zip(names).enumerate() {
             let mut line = match &recipe.parts {
@@ -432,7 +432,7 @@ impl RecipeColumns {
         groups.push((title, rms.to_owned()));
         let mut lines = [String::from("   "), String::from("   ")];
         for (title, below) in groups {
-            let width = title.len().max(below.chars().count());
+            let width = column_width([&below], title.len());
             lines[0] += &format!("  {title:>width$}");
             lines[1] += &format!("  {below:>width$}");
         }
@@ -445,7 +445,7 @@ impl RecipeColumns {
     pub(super) fn row(&self, recipe: &RecipeMatch) -> String {
         // As wide as the light's name, which may be the path of a lamp's file.
         let cell = |(value, name): (Option<f64>, &String)| {
-            let width = name.chars().count().max(WIDTH);
+            let width = column_width([name], WIDTH);
             value.map_or_else(|| format!("{:>width$}", "-"), |value| format!("{value:width$.2}"))
         };
         let delta_e = recipe.delta_e.iter().copied().map(Some).zip(&self.lights);

@@ -108,7 +108,7 @@ impl Validate {
             return console.json(&errors);
         }
         console.warnings(&warnings)?;
-        console.line(validation.report().to_string())
+        console.lines(validation.report().to_string())
     }
 }
 

@@ -4,6 +4,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use documents::name_violation;
 use spectra::csv_table::{CellPlace, CsvTableError, wavelength_of_header};
 use spectra::headings::{self, condition, is_wavelength, name_rank, plain, without_unit};
 
@@ -77,12 +78,10 @@ pub(super) fn columns(
             let number = index + 1;
             return Err(MeasurementError::UnnamedColumn { file, row, number });
         }
-        if name.contains(char::is_control) {
-            return Err(MeasurementError::Sheet(CsvTableError::Cell {
-                place: place(index),
-                wanted: "a name without control characters",
-                text: name.escape_default().to_string(),
-            }));
+        if let Some(wanted) = name_violation(name) {
+            let place = place(index);
+            let text = name.to_owned();
+            return Err(MeasurementError::Sheet(CsvTableError::Cell { place, wanted, text }));
         }
         // `Red [%]` and `Red (g)` are the pigment Red.
         let bare = without_unit(name).0;
@@ -112,10 +111,11 @@ pub(super) fn columns(
     }
     decide_outside(place, kind, pigments.is_some(), headers, &mut columns)?;
     check_repeated(place, headers, &columns)?;
-    let file = headers.first().map_or_else(String::new, |_| place(0).file);
+    // A row of empty cells has no heading, but a file and a number.
+    let CellPlace { file, row, .. } = place(0);
     if !columns.contains(&Column::Sample) {
         let column = "sample";
-        return Err(MeasurementError::Sheet(CsvTableError::MissingColumn { file, column }));
+        return Err(MeasurementError::Sheet(CsvTableError::MissingColumn { file, row, column }));
     }
     let wavelengths = columns.iter().enumerate().filter_map(|(index, column)| match column {
         Column::Wavelength(nm) => Some((index, *nm)),
@@ -124,7 +124,7 @@ pub(super) fn columns(
     let wavelengths: Vec<(usize, f64)> = wavelengths.collect();
     if wavelengths.is_empty() && kind != TableKind::Recipes {
         let column = "400 (a wavelength in nm)";
-        return Err(MeasurementError::Sheet(CsvTableError::MissingColumn { file, column }));
+        return Err(MeasurementError::Sheet(CsvTableError::MissingColumn { file, row, column }));
     }
     let falls = wavelengths.len() > 1 && wavelengths[1].1 < wavelengths[0].1;
     for pair in wavelengths.windows(2) {
@@ -311,7 +311,7 @@ fn column(name: &str, letters: bool) -> Column {
 /// Whether we read a column headed `name` as a pigment, in a file with plain numbers as wavelengths.
 #[must_use]
 pub fn names_a_pigment(name: &str) -> bool {
-    let plain = !name.is_empty() && name.trim() == name && !name.contains(char::is_control);
+    let plain = name.trim() == name && name_violation(name).is_none();
     plain && column(name, false) == Column::Pigment(name.to_owned())
 }
 

@@ -6,7 +6,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use documents::name_list;
+use documents::{from_spreadsheet_cell, name_list, name_violation};
 use spectra::csv_table::{CellPlace, CsvTableError, RowNumbers, wavelength_of_header};
 use spectra::headings::{is_guessed_name, is_wavelength, name_rank};
 use spectra::instrument::{FileText, StatedGeometry, deviations};
@@ -138,8 +138,10 @@ impl CsvRows {
             raw;
         let micrometres = remark.map(|remark| format!("{file}: {remark}"));
         let place = |index: usize| {
-            let row = heading_rows.as_ref().map_or(heading_row, |rows| rows[index]);
-            let place = CellPlace::new(file, row, &headers[index]);
+            let rows = heading_rows.as_ref();
+            let row = rows.and_then(|rows| rows.get(index)).copied().unwrap_or(heading_row);
+            let heading = headers.get(index).map_or("", String::as_str);
+            let place = CellPlace::new(file, row, heading);
             let is_plain = content.is_sheet && heading_rows.is_none();
             if is_plain { place.in_workbook(index) } else { place }
         };
@@ -302,10 +304,13 @@ impl CsvRows {
             let number = |wanted| parsed(cell, self.decimal_comma).ok_or_else(|| wrong(wanted));
             match column {
                 Column::Sample if cell.is_empty() => return Err(wrong("the sample's name")),
-                Column::Sample | Column::Backing if cell.contains(char::is_control) => {
-                    return Err(wrong("a name without control characters"));
+                Column::Backing if cell.is_empty() => {}
+                Column::Sample | Column::Backing if name_violation(cell).is_some() => {
+                    return Err(wrong(name_violation(cell).unwrap_or_default()));
                 }
-                Column::Sample => cell.clone_into(&mut reading.sample),
+                Column::Sample => {
+                    from_spreadsheet_cell(cell).clone_into(&mut reading.sample);
+                }
                 Column::Film => {
                     reading.film = Film::named(cell).ok_or_else(|| wrong("`paint` or `none`"))?;
                 }

@@ -118,8 +118,10 @@ fn cells(line: &str, separator: u8) -> Vec<String> {
     cells
 }
 
-/// A heading, with a decimal point for a decimal comma: `400,5` becomes `400.5`.
+/// A heading as it was before [`documents::spreadsheet_cell`], and with a decimal point for a decimal comma:
+/// `400,5` becomes `400.5`.
 pub(super) fn plain_heading(heading: &str) -> String {
+    let heading = documents::from_spreadsheet_cell(heading);
     let pointed = heading.replace(',', ".");
     if pointed.parse::<f64>().is_ok() { pointed } else { heading.to_owned() }
 }

@@ -114,9 +114,8 @@ fn repeated(spectra: &[Spectrum<'_>]) -> Option<String> {
 
 /// Name for a table: without control characters, and not empty.
 fn name(raw: &str) -> String {
-    let plain: String = raw.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-    let plain = plain.trim();
-    if plain.is_empty() { "unnamed".to_owned() } else { plain.to_owned() }
+    let plain = documents::plain_name(raw);
+    if plain.is_empty() { "unnamed".to_owned() } else { plain }
 }
 
 struct Spectrum<'a> {

@@ -1,7 +1,7 @@
 //! Paints and recipes of a plan, the empty measurement file that you fill in, and reasons why a plan is
 //! impossible.
 
-use documents::{Cancelled, hint::Explain};
+use documents::{Cancelled, hint::Explain, spreadsheet_cell};
 use pigment::{PigmentId, Recipe, RecipeError};
 use spectra::Grid;
 
@@ -217,7 +217,8 @@ impl MeasurementForm {
     ) -> Vec<u8> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         let mut write = |record: Vec<String>| {
-            writer.write_record(&record).expect("rows have one length, and memory can be written");
+            let cells = record.iter().map(|cell| spreadsheet_cell(cell).into_owned());
+            writer.write_record(cells).expect("rows have one length, and memory can be written");
         };
         let fixed = ["sample", "film", "backing", fourth].map(str::to_owned);
         let names = paints.names.iter().chain(wavelengths).cloned();

@@ -27,7 +27,7 @@ use super::error::{CubeError, refuse_other_kinds};
 use super::gdal::GdalMetadata;
 use super::listed::{OwnReadings, readings};
 use super::options::CubeOptions;
-use super::raw_file::Interleave;
+use super::raw_file::{FileStamp, Interleave};
 use super::scan::Cube;
 use super::side_files::{Spool, wavelengths_of};
 use super::window::{Opened, Values};
@@ -46,6 +46,7 @@ impl Cube {
     pub fn open_with(path: impl AsRef<Path>, options: &CubeOptions) -> Result<Self, CubeError> {
         let path = path.as_ref();
         options.check(path)?;
+        let stamp = stamp_of(path)?;
         let (scan, own) = match path.is_dir() && !zarr_cube::is_zarr(path) && is_specim(path) {
             true => {
                 let found = specim_scan(path)?;
@@ -57,8 +58,18 @@ impl Cube {
         };
         let own = own.map(OwnReadings::from);
         let readings = readings(&scan, own.as_ref(), options, &|path| open_kind(path, options))?;
-        Self::of(scan, readings.as_ref(), options)
+        let mut cube = Self::of(scan, readings.as_ref(), options)?;
+        cube.stamp = stamp;
+        Ok(cube)
     }
+}
+
+/// The file at `path`, or the metadata of the Zarr array or group there, as they are now. Other folders hold headers,
+/// which have stamps of their own.
+fn stamp_of(path: &Path) -> Result<Option<FileStamp>, CubeError> {
+    let metadata = ["zarr.json", ".zarray", ".zgroup"].map(|name| path.join(name));
+    let named = std::iter::once(path.to_owned()).chain(metadata).find(|place| place.is_file());
+    named.map(|place| FileStamp::of(&place)).transpose()
 }
 
 /// Opens the scan at `path`, whatever its kind.

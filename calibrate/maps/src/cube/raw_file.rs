@@ -230,6 +230,11 @@ impl Source for RawFile {
     fn full_scale(&self) -> Option<f64> {
         self.layout.number_type.full_scale()
     }
+
+    #[cfg(feature = "files")]
+    fn check_unchanged(&self) -> Result<(), CubeError> {
+        self.file.check_unchanged()
+    }
 }
 
 /// Bytes that you can read by position, e.g. a file on a disk or slices of one that a browser
@@ -245,17 +250,47 @@ pub trait ReadAt: Debug + Send + Sync {
     fn read_exact_at(&self, buffer: &mut [u8], position: u64) -> io::Result<()>;
 }
 
+/// Size and time of a file when it was opened.
+#[cfg(feature = "files")]
+#[derive(Debug, Clone)]
+pub(crate) struct FileStamp {
+    path: PathBuf,
+    size_and_time: (u64, Option<std::time::SystemTime>),
+}
+
+#[cfg(feature = "files")]
+impl FileStamp {
+    pub(crate) fn of(path: &Path) -> Result<Self, CubeError> {
+        let about = std::fs::metadata(path).map_err(|reason| CubeError::reading(path, reason))?;
+        Ok(Self { path: path.to_owned(), size_and_time: (about.len(), about.modified().ok()) })
+    }
+
+    /// Refuses a file that was changed or removed since.
+    pub(crate) fn check(&self) -> Result<(), CubeError> {
+        let problem = match Self::of(&self.path) {
+            Ok(now) if now.size_and_time == self.size_and_time => return Ok(()),
+            Ok(_) => "was changed while it was read",
+            Err(_) => "was removed while it was read",
+        };
+        Err(CubeError::data(&self.path, problem, "read the scan again from the start"))
+    }
+}
+
 #[derive(Debug, Clone)]
 pub(crate) struct PositionalFile {
     path: PathBuf,
     source: Arc<dyn ReadAt>,
+    /// `None` for a temporary file, which has no name, and for bytes in memory.
+    #[cfg(feature = "files")]
+    stamp: Option<FileStamp>,
 }
 
 impl PositionalFile {
     #[cfg(feature = "files")]
     pub(crate) fn open(path: &Path) -> Result<Self, CubeError> {
+        let stamp = Some(FileStamp::of(path)?);
         let file = File::open(path).map_err(|reason| CubeError::reading(path, reason))?;
-        Self::of(file, path)
+        Ok(Self { stamp, ..Self::of(file, path)? })
     }
 
     /// Takes an open file. Messages call it `path`.
@@ -273,7 +308,18 @@ impl PositionalFile {
 
     /// Takes bytes that lie anywhere. Messages call them `path`.
     pub(crate) fn with(source: Arc<dyn ReadAt>, path: &Path) -> Self {
-        Self { path: path.to_owned(), source }
+        Self {
+            path: path.to_owned(),
+            source,
+            #[cfg(feature = "files")]
+            stamp: None,
+        }
+    }
+
+    /// Refuses a file that was changed or removed since it was opened.
+    #[cfg(feature = "files")]
+    fn check_unchanged(&self) -> Result<(), CubeError> {
+        self.stamp.as_ref().map_or(Ok(()), FileStamp::check)
     }
 
     /// Bytes of the file when it was opened.
@@ -339,6 +385,13 @@ mod tests {
         assert_eq!((part, file.bytes()), ([3, 4], 5));
         let error = file.read_at(&mut part, 4).unwrap_err().to_string();
         assert!(error.ends_with("cube.raw: ends before byte 6"), "{error}");
+        file.check_unchanged().unwrap();
+        std::fs::write(&path, [0, 1, 2, 3, 4, 5]).unwrap();
+        let error = file.check_unchanged().unwrap_err().to_string();
+        assert!(error.ends_with("cube.raw: was changed while it was read"), "{error}");
+        std::fs::remove_file(&path).unwrap();
+        let error = file.check_unchanged().unwrap_err().to_string();
+        assert!(error.ends_with("cube.raw: was removed while it was read"), "{error}");
         let error = PositionalFile::open(folder.path()).unwrap_err().to_string();
         assert!(error.ends_with("not a regular file"), "{error}");
     }

@@ -11,6 +11,8 @@ use sha2::{Digest, Sha256};
 use super::error::CubeError;
 use super::interpret::{Readings, interpret};
 use super::options::CubeOptions;
+#[cfg(feature = "files")]
+use super::raw_file::FileStamp;
 use super::window::{Block, Conversion, Opened, Pixels, Source, Terms, Window};
 use crate::pixel_maps::Mask;
 
@@ -39,6 +41,9 @@ pub struct Cube {
     bands: Vec<usize>,
     conversion: Conversion,
     source: Box<dyn Source>,
+    /// The header, or the one file.
+    #[cfg(feature = "files")]
+    pub(crate) stamp: Option<FileStamp>,
 }
 
 impl Cube {
@@ -71,7 +76,21 @@ impl Cube {
             bands: found.bands,
             conversion: found.conversion,
             source: scan.source,
+            #[cfg(feature = "files")]
+            stamp: None,
         })
+    }
+
+    /// Checks that the scan is what it was when you opened it: that neither size nor time of its header and of its data
+    /// changed. Call this after reading, before you use what you made of the values. We look at the metadata of a Zarr
+    /// array, not at each of its chunks.
+    ///
+    /// # Errors
+    /// [`CubeError::Data`] for a file that was changed or removed.
+    #[cfg(feature = "files")]
+    pub fn check_unchanged(&self) -> Result<(), CubeError> {
+        self.stamp.as_ref().map_or(Ok(()), FileStamp::check)?;
+        self.source.check_unchanged()
     }
 
     /// Path of the header or file, as we found it.

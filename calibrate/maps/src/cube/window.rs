@@ -85,6 +85,12 @@ pub(crate) trait Source: Debug + Send + Sync {
     fn full_scale(&self) -> Option<f64> {
         None
     }
+
+    /// Refuses values of a file that was changed or removed since it was opened.
+    #[cfg(feature = "files")]
+    fn check_unchanged(&self) -> Result<(), CubeError> {
+        Ok(())
+    }
 }
 
 /// We map pixels from this reflectance on, because of the noise around black.

@@ -280,8 +280,8 @@ pub enum StoreError {
     },
     /// The output exists, and you did not ask to resume it.
     #[error("{}: exists already and {holds}", path.display())]
-    #[hint(if *is_maps, "go on with [resume], or name another folder with [out]")]
-    #[hint("name another folder with [out]")]
+    #[hint(if *is_maps, "go on with [resume], or name another folder with [output]")]
+    #[hint("name another folder with [output]")]
     #[fault(Setting)]
     Exists {
         /// Path of the store.
@@ -294,7 +294,7 @@ pub enum StoreError {
     /// The output belongs to a run of other settings.
     #[error("{}: holds maps of another run: `{key}` is {found}, now {expected}", path.display())]
     #[hint(
-        "name another folder with [out], or map with the scan, library and settings of that run"
+        "name another folder with [output], or map with the scan, library and settings of that run"
     )]
     #[fault(Setting)]
     OtherRun {

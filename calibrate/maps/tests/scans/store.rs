@@ -389,6 +389,40 @@ fn a_cube_that_cannot_be_read_leaves_no_shard() {
     assert!(store.shards().iter().all(|shard| !store.is_finished(shard)), "a half shard");
 }
 
+#[test]
+fn a_scan_that_changes_while_it_is_mapped_leaves_no_shard() {
+    type Change = fn(&Path);
+    let changes: [(Change, &str); 3] = [
+        (|data| std::fs::write(data, vec![7; LINES * SAMPLES * 4 + 1]).unwrap(), "was changed"),
+        (|data| std::fs::remove_file(data).unwrap(), "was removed"),
+        (|data| std::fs::write(data.with_extension("hdr"), "ENVI").unwrap(), "was changed"),
+    ];
+    for (change, told) in changes {
+        let folder = tempfile::tempdir().unwrap();
+        let path = write_scan(folder.path());
+        let cube = open(&path);
+        cube.check_unchanged().unwrap();
+        let about = about(LINES, SAMPLES, 2);
+        let maps = folder.path().join("maps.zarr");
+        let store = MapStore::create(maps, &about, StoreMode::New).unwrap();
+        let changed = Cell::new(false);
+        let error = map_cube(
+            &cube,
+            &store,
+            |block| {
+                if !changed.replace(true) {
+                    change(&path.with_extension("raw"));
+                }
+                map(block)
+            },
+            &Task::default(),
+        );
+        let error = error.unwrap_err();
+        assert!(error.to_string().contains(told) && error.hint().is_some(), "{error}");
+        assert!(store.shards().iter().all(|shard| !store.is_finished(shard)), "{told}");
+    }
+}
+
 const ROWS: usize = 300;
 const COLUMNS: usize = 530;
 

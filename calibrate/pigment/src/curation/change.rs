@@ -2,6 +2,7 @@
 //! pigments guessed from a colour.
 
 use documents::hint::Explain;
+use documents::{excerpt, name_violation};
 use spectra::color::{
     Adaptation, ColorCode, ColorCodeError, Lab, RgbSpace, Xyz, delta_e_ciede2000,
 };
@@ -27,8 +28,8 @@ pub fn renamed(
     for (old, new) in names {
         let id = find(file, library, old)?;
         let new = new.trim();
-        if new.is_empty() || new.contains(char::is_control) {
-            let name = new.escape_default().to_string();
+        if name_violation(new).is_some() {
+            let name = excerpt(new);
             return Err(CurationError::Name { file: file.to_owned(), name });
         }
         new.clone_into(&mut result.pigments[id.index()].name);
@@ -359,7 +360,7 @@ pub fn add_guessed(
     nearest: bool,
 ) -> Result<Guess, CurationError> {
     let name = name.trim();
-    if name.is_empty() || name.contains(char::is_control) {
+    if name_violation(name).is_some() {
         return Err(CurationError::Unnamed);
     }
     if library.pigments.iter().any(|pigment| pigment.name == name) {
@@ -555,8 +556,8 @@ pub enum CurationError {
     #[error(transparent)]
     #[fault(Setting)]
     Color(#[from] ColorCodeError),
-    /// A pigment was to be guessed without a name.
-    #[error("a pigment needs a name")]
+    /// A pigment was to be guessed without a name, or under one that nothing can have.
+    #[error("a pigment needs a name of at most 200 letters, without control characters")]
     #[hint("give [name=\"Sky Blue\"]")]
     #[fault(Setting)]
     Unnamed,

@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use spectra::TristimulusWeights;
 use spectra::color::{Lab, delta_e_ciede2000};
 
-use crate::evaluate::{BandCoverage, Viewing, lab, percentile};
+use crate::evaluate::{BandCoverage, COARSE_STEP_NM, Viewing, lab, percentile};
 use crate::library::{AmountKind, Pigment, PigmentLibrary};
 use crate::recipe::{PigmentId, Recipe};
 
@@ -64,9 +64,13 @@ impl Health {
     }
 }
 
-/// Above this grid step in nm a library is too coarse for the absorption bands of most pigments. We chose
-/// it by eye.
-const COARSE_STEP_NM: f64 = 20.0;
+/// A grid with steps below this, in nm, is finer than any instrument resolves, so the step is a slip.
+const FINE_STEP_NM: f64 = 0.1;
+/// Surfaces of paint reflect 0.02 to 0.1 of the light that arrives. Titanium dioxide alone would reflect 0.2.
+const MOST_K1: f64 = 0.2;
+/// No paint has a K or S above this, and none that scatters has an S below its inverse, in any usual unit of
+/// amounts. The figures that we know of are 1e-5 to 1e3.
+const MOST_FIGURE: f64 = 1e9;
 /// A fit with a mean CIEDE2000 above this is poor. We chose it by eye.
 const POOR_FIT: f64 = 3.0;
 /// Rounding to six digits in a file explains this deviation of the reference's S from 1, with some margin.
@@ -124,6 +128,16 @@ fn of_library(library: &PigmentLibrary) -> Vec<Finding> {
     if library.grid.step_nm() > COARSE_STEP_NM {
         let what = format!("steps of {} nm are coarse for colour", library.grid.step_nm());
         found(Severity::Warning, what);
+    }
+    if library.grid.step_nm() < FINE_STEP_NM {
+        let what =
+            format!("steps of {:e} nm are finer than any instrument reads", library.grid.step_nm());
+        found(Severity::Fault, what);
+    }
+    let k1 = library.saunderson.k1;
+    if k1 > MOST_K1 {
+        let what = format!("k1 is {k1}, but surfaces of paint reflect 0.02 to 0.1");
+        found(Severity::Fault, what);
     }
     for (what, text) in [("licence", &library.licence), ("source", &library.source)] {
         if is_not_stated(text) {
@@ -206,6 +220,17 @@ fn of_pigment(library: &PigmentLibrary, pigment: &Pigment, findings: &mut Vec<Fi
     {
         let what = format!("K and S are both 0 at {} nm, which is not paint", grid.nm(at));
         found(Severity::Fault, what);
+    }
+    let least_s = if pigment.scattering.iter().any(|s| *s > 0.0) { 1.0 / MOST_FIGURE } else { 0.0 };
+    for (letter, curve, least) in
+        [("K", &pigment.absorption, 0.0), ("S", &pigment.scattering, least_s)]
+    {
+        let wrong = curve.iter().position(|value| !(least..=MOST_FIGURE).contains(value));
+        if let Some(at) = wrong {
+            let what =
+                format!("{letter} is {:e} at {} nm, which is not paint", curve[at], grid.nm(at));
+            found(Severity::Fault, what);
+        }
     }
     let surface = library.saunderson;
     let film: Vec<f64> = pigment
@@ -465,6 +490,33 @@ impl<'a> Side<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn faults(library: &PigmentLibrary) -> Vec<String> {
+        let found = health(library, &Viewing::default()).findings;
+        let faults = found.into_iter().filter(|finding| finding.severity == Severity::Fault);
+        faults.map(|finding| finding.what).collect()
+    }
+
+    #[test]
+    fn figures_that_no_paint_has_are_faults() {
+        let sound = PigmentLibrary::van_gogh_oils();
+        assert!(faults(&sound).is_empty(), "{:?}", faults(&sound));
+        type Change = fn(&mut PigmentLibrary);
+        let changes: [(Change, &str); 4] = [
+            (|l| l.pigments[3].absorption[2] = 1e300, "K is 1e300 at 420 nm, which is not paint"),
+            (|l| l.pigments[3].scattering[2] = 1e-300, "S is 1e-300 at 420 nm, which is not paint"),
+            (|l| l.saunderson.k1 = 0.999, "k1 is 0.999, but surfaces of paint reflect 0.02 to 0.1"),
+            (
+                |l| l.grid = spectra::Grid::from_nm(400.0, 1e-9, l.grid.count()).unwrap(),
+                "steps of 1e-9 nm are finer than any instrument reads",
+            ),
+        ];
+        for (change, what) in changes {
+            let mut library = sound.clone();
+            change(&mut library);
+            assert!(faults(&library).contains(&what.to_owned()), "{what}: {:?}", faults(&library));
+        }
+    }
 
     #[test]
     fn conditions_that_nobody_stated_are_found() {

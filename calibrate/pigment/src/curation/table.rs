@@ -4,6 +4,7 @@
 //! wavelengths in nm. You can also make swatches: the masstone of each pigment and its tints.
 
 use documents::hint::Explain;
+use documents::{from_spreadsheet_cell, name_violation, spreadsheet_cell};
 use spectra::Grid;
 use spectra::color::{Adaptation, ColorValues, Lab, adapt};
 use spectra::csv_table::{CellPlace, CsvTableError, RowNumbers, wavelength_of_header};
@@ -56,7 +57,8 @@ pub fn to_csv(library: &PigmentLibrary) -> String {
             false => [&Vec::new(), &Vec::new(), &Vec::new(), &Vec::new(), &ratio],
         };
         for (quantity, curve) in QUANTITIES.iter().zip(curves).filter(|(_, c)| !c.is_empty()) {
-            let mut record = vec![pigment.name.clone(), (*quantity).to_owned()];
+            let name = spreadsheet_cell(&pigment.name).into_owned();
+            let mut record = vec![name, (*quantity).to_owned()];
             record.extend(curve.iter().map(f64::to_string));
             writer.write_record(&record).expect("writing to memory does not fail");
         }
@@ -104,10 +106,10 @@ pub fn from_csv(file: &str, text: &str, frame: LibraryFrame) -> Result<PigmentLi
                 text: record[column].to_owned(),
             })
         };
-        let name = &record[columns.0];
+        let name = from_spreadsheet_cell(&record[columns.0]);
         let quantity = &record[columns.1];
-        if name.is_empty() || name.contains(char::is_control) {
-            return Err(wrong(columns.0, "a pigment's name"));
+        if let Some(wanted) = name_violation(name) {
+            return Err(wrong(columns.0, wanted));
         }
         let spelled = match quantity {
             "K" => "absorption",
@@ -168,7 +170,8 @@ fn column(
 ) -> Result<usize, TableError> {
     let found = header.iter().position(|name| name.eq_ignore_ascii_case(wanted));
     found.ok_or_else(|| {
-        TableError::Sheet(CsvTableError::MissingColumn { file: file.to_owned(), column: wanted })
+        let file = file.to_owned();
+        TableError::Sheet(CsvTableError::MissingColumn { file, row: 1, column: wanted })
     })
 }
 

@@ -4,6 +4,7 @@
 use std::path::Path;
 
 use documents::file::{FileError, read};
+use documents::from_spreadsheet_cell;
 use documents::hint::Explain;
 use documents::request::{RequestError, from_text, refused};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -499,7 +500,7 @@ impl PriceList {
             let place = format!("{file}, row {row}");
 
             let price = parse_price(record.get(price).unwrap_or_default(), &place)?;
-            let pigment = record.get(pigment).unwrap_or_default().to_owned();
+            let pigment = from_spreadsheet_cell(record.get(pigment).unwrap_or_default()).to_owned();
             self.entries.push(Entry { pigment, price, place: Some(place) });
         }
         Ok(())

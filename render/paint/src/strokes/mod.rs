@@ -199,6 +199,17 @@ pub enum ScriptError {
     Invalid(#[from] Box<InvalidValue>),
 }
 
+impl ScriptError {
+    /// The error of a script that was read from `file`.
+    #[must_use]
+    pub fn in_file(self, file: &str) -> Self {
+        match self {
+            Self::Invalid(invalid) => Self::Value { file: file.to_owned(), invalid },
+            other => other,
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     //! Tests of rounding: writing and reading leave a rounded action unchanged.

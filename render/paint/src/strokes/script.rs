@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 use documents::hint::Hint;
+use documents::{excerpt, name_violation};
 use serde::de::{self, Deserializer, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -311,6 +312,18 @@ impl StrokeScript {
             check_light(&top, "lighting.", lighting)?;
         }
         check_palette(&top, &self.palette)?;
+        for (field, names) in [
+            ("brushes", self.brushes.keys().collect::<Vec<_>>()),
+            (
+                "palette",
+                self.palette.pigments.iter().filter_map(|(short, _)| short.as_ref()).collect(),
+            ),
+        ] {
+            let wrong = names.iter().find_map(|name| Some((name_violation(name)?, name)));
+            if let Some((wanted, name)) = wrong {
+                return Err(top.invalid(field, wanted, &excerpt(name), None));
+            }
+        }
         for (name, brush) in &self.brushes {
             check_size(&top, &format!("brushes.{name}.size_mm"), brush.size_mm)?;
         }
@@ -378,9 +391,7 @@ impl StrokeScript {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let script: Self =
             serde_json::from_str(text).map_err(|error| explained(file, text, &error))?;
-        script
-            .check_values()
-            .map_err(|invalid| ScriptError::Value { file: file.to_owned(), invalid })?;
+        script.check().map_err(|error| error.in_file(file))?;
         Ok(script)
     }
 

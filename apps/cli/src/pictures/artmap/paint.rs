@@ -63,7 +63,7 @@ pub(super) struct Paint {
 impl Paint {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         if let Some(name) = &self.show_style {
-            return console.line(Style::text(name)?.trim_end());
+            return console.lines(Style::text(name)?);
         }
         let printed = Printed::of(self.json, self.csv);
         let named = self.library.or(self.pigments);

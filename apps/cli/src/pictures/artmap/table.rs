@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use documents::counted;
+use documents::{column_width, counted};
 use pictures::{ArtMapOutcome, SampleFigures, SamplesOutcome};
 use serde::Serialize;
 
@@ -68,8 +68,7 @@ impl Table {
     pub(super) fn print(&self, console: &mut Console<'_>) -> Result<()> {
         for row in &self.rows {
             let cells = row.iter().enumerate().map(|(column, cell)| {
-                let cells = self.rows.iter().filter_map(|row| row.get(column));
-                let width = cells.map(|cell| cell.chars().count()).max().unwrap_or(0);
+                let width = column_width(self.rows.iter().filter_map(|row| row.get(column)), 0);
                 format!("{cell:width$}")
             });
             console.line(cells.collect::<Vec<_>>().join("  ").trim_end())?;

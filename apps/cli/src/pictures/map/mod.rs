@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Arg, Args, ValueHint};
-use documents::{Task, text::read_text};
+use documents::{Task, column_width, text::read_text};
 use maps::cube::{CubeOptions, CubeScale};
 use maps::pictures::Overview;
 use maps::truth::{CHI2_RISEN, Comparison, Truth, compare};
@@ -319,7 +319,7 @@ fn print(compared: &Comparison, console: &mut Console<'_>) -> Result<()> {
     }
     let named = compared.pigments.iter().filter(|p| p.there >= NAMED || p.told >= NAMED);
     let named: Vec<_> = named.collect();
-    let width = named.iter().map(|pigment| pigment.name.chars().count()).max().unwrap_or(0).max(7);
+    let width = column_width(named.iter().map(|pigment| &pigment.name), "pigment".len());
     console
         .line(format!("{:width$}  present  mapped  mapped rightly (% of the pixels)", "pigment"))?;
     for pigment in named {
@@ -361,8 +361,7 @@ fn print_survey(
     let palette = scan.palette();
     let named: Vec<&FoundColumn> =
         palette.iter().filter(|found| found.part >= MOST_NAMED).collect();
-    let width = named.iter().map(|found| found.column.name.chars().count()).max().unwrap_or(0);
-    let width = width.max("pigment".len());
+    let width = column_width(named.iter().map(|found| &found.column.name), "pigment".len());
     let headings = if mapped.is_some() { "  survey  present  mean share" } else { "  survey" };
     console.line(format!("{:width$}{headings}", "pigment"))?;
     for found in named {

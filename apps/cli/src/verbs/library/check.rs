@@ -125,11 +125,14 @@ fn print(library: &PigmentLibrary, health: &Health, console: &mut Console<'_>) -
             console.line(format!("worst samples: {}", samples.collect::<Vec<_>>().join(", ")))?;
         }
     }
-    let width = health.pigments.iter().map(|p| p.name.chars().count()).max().unwrap_or(0).max(7);
+    let width = documents::column_width(health.pigments.iter().map(|p| &p.name), 7);
     console.line(format!("{:width$}  {:>17}  +- %  {:>17}  +- %  L*", "pigment", "K", "S"))?;
     for pigment in &health.pigments {
         let PigmentHealth { name, absorption, scattering, masstone, .. } = pigment;
-        let [k, s] = [absorption, scattering].map(|[low, high]| format!("{low:.3} to {high:.3}"));
+        let [k, s] = [absorption, scattering].map(|[low, high]| match *high < 1e6 {
+            true => format!("{low:.3} to {high:.3}"),
+            false => format!("{low:.2e} to {high:.2e}"),
+        });
         let shares = [pigment.absorption_uncertainty, pigment.scattering_uncertainty];
         let [k_sd, s_sd] = shares.map(|share| {
             share.map_or_else(|| "-".to_owned(), |share| format!("{:.0}", 100.0 * share))
@@ -288,7 +291,7 @@ fn print_differences(
     console: &mut Console<'_>,
 ) -> Result<()> {
     console.line(format!("{}, observer {}", viewing.illuminant.name(), viewing.observer))?;
-    let width = found.pigments.iter().map(|p| p.name.chars().count()).max().unwrap_or(0).max(7);
+    let width = documents::column_width(found.pigments.iter().map(|p| &p.name), 7);
     console.line(format!("{:width$}  masstone  tint 1:9", "pigment"))?;
     for pigment in &found.pigments {
         let tint = pigment.tint.map_or_else(|| "-".to_owned(), |v| format!("{v:.2}"));

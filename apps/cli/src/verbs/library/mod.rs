@@ -132,7 +132,7 @@ pub(crate) fn print_pigments(
 ) -> Result<()> {
     let weights = viewing.weights(library.grid)?;
     let white = library.reference.as_deref().and_then(|name| library.find(name).ok());
-    let width = library.pigments.iter().map(|p| p.name.chars().count()).max().unwrap_or(0);
+    let width = documents::column_width(library.pigments.iter().map(|p| &p.name), 0);
     let tints = white.is_some() && library.amounts == AmountKind::Relative;
     // A colour patch takes seven more columns.
     let column = if console.screen.colors { 21 } else { 14 };

@@ -4,7 +4,8 @@
 use std::path::Path;
 use std::str::FromStr;
 
-use documents::hint::{Explain, Fault};
+use documents::excerpt;
+use documents::hint::Explain;
 use documents::settings::{OutOfRange, out_of_range};
 use documents::text::{Source, TextError, read_text};
 use paint::HeadShape;
@@ -162,7 +163,7 @@ impl Style {
     /// [`StyleError`] for text that is no TOML, unknown or missing keys, and numbers out of range.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, StyleError> {
         let style: Self = Source::toml(file, text)?.typed()?;
-        style.check()?;
+        style.check().map_err(|error| error.of_file(file))?;
         Ok(style)
     }
 
@@ -172,7 +173,7 @@ impl Style {
     /// [`StyleError::Number`] for the first number that is out of its range.
     pub fn check(&self) -> Result<(), StyleError> {
         if let Some(OutOfRange { key, value, least, most, .. }) = out_of_range(self) {
-            let style = self.name.clone();
+            let style = format!("style {}", excerpt(&self.name));
             return Err(StyleError::Number { style, key, value, least, most });
         }
         self.check_effort()
@@ -190,7 +191,7 @@ impl Style {
             [("cells with its margins", cells, MOST_CELLS), ("strokes", strokes, MOST_STROKES)]
         {
             if found > most {
-                let style = self.name.clone();
+                let style = format!("style {}", excerpt(&self.name));
                 return Err(StyleError::TooLarge { style, what, found, most });
             }
         }
@@ -225,22 +226,22 @@ impl FromStr for Style {
 
 /// A style cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
-#[fault(Setting)]
 pub enum StyleError {
     /// The file cannot be read, is no TOML, or has an unknown or missing key.
     #[error(transparent)]
     #[hint(if matches!(_0, TextError::File(_)), inner)]
     #[hint("begin with the text of a style that ships: [show_style=oil-flat]")]
-    #[fault(with = if matches!(_0, TextError::File(_)) { _0.fault() } else { Fault::Setting })]
+    #[fault(inner)]
     Text(#[from] TextError),
     /// No style that ships has this name.
     #[error("there is no style called `{0}`")]
     #[hint("choose [style] among {}", Style::ALL.join(", "))]
+    #[fault(Setting)]
     Unknown(String),
     /// A number is out of its range.
-    #[error("style {style}: {key} is {least} to {most}, found `{value}`")]
+    #[error("{style}: {key} is {least} to {most}, found `{value}`")]
     Number {
-        /// Name of the style.
+        /// The style by its name, after its file if it has one.
         style: String,
         /// Group and key of the number.
         key: String,
@@ -253,9 +254,9 @@ pub enum StyleError {
     },
     /// A swatch would take too much memory or time.
     #[hint("take larger cells, wider spacing or shorter strokes")]
-    #[error("style {style}: a swatch has at most {most} {what}, found `{found:.0}`")]
+    #[error("{style}: a swatch has at most {most} {what}, found `{found:.0}`")]
     TooLarge {
-        /// Name of the style.
+        /// The style by its name, after its file if it has one.
         style: String,
         /// The items of which there are too many: cells or strokes.
         what: &'static str,
@@ -266,10 +267,20 @@ pub enum StyleError {
     },
 }
 
+impl StyleError {
+    /// The error of a style in `file`.
+    fn of_file(mut self, file: &str) -> Self {
+        if let Self::Number { style, .. } | Self::TooLarge { style, .. } = &mut self {
+            *style = format!("{file}, {style}");
+        }
+        self
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use documents::hint::Explain;
+    use documents::hint::Fault;
 
     #[test]
     fn shipped_styles_are_valid_have_their_names_and_come_back_from_toml() {
@@ -316,10 +327,12 @@ mod tests {
         let text = toml::to_string(&Style::named("dabs").unwrap()).unwrap();
         let wide = text.replace("jitter = ", "jitter = 1");
         let error = Style::from_toml("my.toml", &wide).unwrap_err();
-        assert!(error.to_string().starts_with("style dabs: strokes.jitter is 0 to 1"), "{error}");
+        assert!(error.to_string().starts_with("my.toml, style dabs: strokes.jitter is 0 to 1"));
+        assert_eq!(error.fault(), Fault::Input);
         let unknown = text.replace("jitter = ", "gitter = ");
         let error = Style::from_toml("my.toml", &unknown).unwrap_err();
         assert!(error.to_string().starts_with("my.toml, line "), "{error}");
+        assert_eq!(error.fault(), Fault::Input);
         let fine = text.replace("cell_mm = 0.18", "cell_mm = 0.02");
         let long = fine.replace("length_mm = 3.5", "length_mm = 1000.0");
         let error = Style::from_toml("my.toml", &long).unwrap_err();

@@ -155,6 +155,12 @@ impl SampleHeader {
                 header_part(index)
             ));
         }
+        if let Some(wanted) = documents::name_violation(name) {
+            return Err(format!(
+                "sample {index} has {wanted}, found `{}`",
+                documents::excerpt(name)
+            ));
+        }
         if *width == 0 || *height == 0 {
             return Err(format!("sample `{name}` has texels, found `{width} x {height}`"));
         }

@@ -5,10 +5,10 @@ mod area;
 
 use std::path::Path;
 
-use documents::counted;
 use documents::file::{NamedFileError, NamedFiles};
 use documents::hint::Explain;
 use documents::text::{Source, TextError, read_text};
+use documents::{counted, name_violation};
 use graphics::field::Field;
 use graphics::picture::{Photograph, PhotographError};
 use serde::Deserialize;
@@ -201,6 +201,9 @@ impl Regions {
             let error = |fault, hint: &str| {
                 Err(RegionsError::region(&self.name, &region.name, fault, hint))
             };
+            if let Some(wanted) = name_violation(&region.name) {
+                return error(format!("it needs {wanted}"), "shorten or correct its name");
+            }
             if self.list[..index].iter().any(|other| other.name == region.name) {
                 return error("two regions have this name".to_owned(), "give each its own name");
             }

@@ -158,8 +158,8 @@ pub enum MarksError {
 /// Fault of one sample.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MarkFault {
-    /// The name is empty.
-    #[error("a sample needs a name")]
+    /// The name is empty, too long, or holds control characters.
+    #[error("a sample needs a name of at most 200 letters, without control characters")]
     NoName,
     /// Two samples have the same name.
     #[error("another sample has this name")]

@@ -4,6 +4,7 @@
 use std::path::Path;
 
 use documents::file::write_whole;
+use documents::name_violation;
 use documents::text::{Source, read_text};
 use graphics::field::Field;
 use graphics::picture::Photograph;
@@ -107,7 +108,7 @@ impl EntryOfSample {
     }
 
     fn mark(self) -> Result<Mark, (&'static str, MarkFault)> {
-        if self.name.trim().is_empty() {
+        if name_violation(&self.name).is_some() {
             return Err(("name", MarkFault::NoName));
         }
         let points = self.scribble.iter().flatten().flatten();
