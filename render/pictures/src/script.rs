@@ -11,7 +11,7 @@ use std::{
 use calibrate::{Remark, library::PigmentLibrary};
 use documents::{
     Task,
-    file::{self, NamedFiles, Output, OutputFolder, Outside, create_folder},
+    file::{self, NamedFiles, Output, Outside, create_folder},
 };
 use graphics::{
     export::{PictureFormat, picture_file},

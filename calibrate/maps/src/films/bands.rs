@@ -390,7 +390,6 @@ impl BareGround {
 mod tests {
     use super::*;
     use nalgebra::{DMatrix, DVector};
-    use pigment::library::{Pigment, PigmentLibrary};
     use spectra::Grid;
 
     fn oils() -> Grid {
