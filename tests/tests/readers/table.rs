@@ -158,7 +158,12 @@ pub(crate) const READERS: &[Reader] = &[
     Reader {
         name: "instruments",
         kind: Kind::Measurement,
-        seeds: || [folder("instruments"), folder("instruments_xml")].concat(),
+        seeds: || {
+            let mut files = [folder("instruments"), folder("instruments_xml")].concat();
+            // A table of measurements.
+            files.retain(|(name, _)| name != "sheet.csv");
+            files
+        },
         read: |name, bytes| words(spectra::instrument::read(name, bytes, None)),
     },
     Reader {
@@ -249,7 +254,12 @@ pub(crate) const READERS: &[Reader] = &[
     Reader {
         name: "regions",
         kind: Kind::Toml,
-        seeds: || fixtures(&["formats/regions.toml"]),
+        seeds: || {
+            // A region by label needs a picture beside the file.
+            let region = "name = \"sky\"\npolygon = [[0, 0], [600, 0], [600, 180], [0, 220]]\n\
+                around = [420, 90]\nmap = \"oil-long\"\nflow = 2\ntwinkle = 0.2\nangle_deg = 10\nsize = 1.5\n";
+            vec![made("regions.toml", &format!("[[region]]\n{region}"))]
+        },
         read: |name, bytes| words(Regions::from_toml(name, &text(bytes))),
     },
     Reader {

@@ -285,7 +285,12 @@ fn spectral_exr_files_are_read() {
 fn a_spectral_exr_file_that_announces_more_than_it_can_hold_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path: PathBuf = folder.path().join("painting.exr");
-    write_exr(&path, &CHANNELS, Compression::ZIP16);
+    let channels = CHANNELS
+        .map(|(name, _)| AnyChannel::new(name, FlatSamples::F32(vec![0.25; LINES * SAMPLES])));
+    let encoding = Encoding::SMALL_LOSSLESS;
+    let channels = AnyChannels::sort(channels.into_iter().collect());
+    let layer = Layer::new((SAMPLES, LINES), LayerAttributes::default(), encoding, channels);
+    Image::from_layer(layer).write().to_file(&path).unwrap();
     let mut bytes = std::fs::read(&path).unwrap();
     // The window of the data: left, top, right and bottom, the last ones inclusive.
     let name = b"dataWindow\0box2i\0";
