@@ -310,13 +310,17 @@ mod named_options {
     /// The options in a text.
     fn options_in(text: &str) -> Vec<String> {
         let starts = text.match_indices("--").filter(|(at, _)| {
-            text[..*at].is_empty() || text[..*at].ends_with([' ', '`', '\'', '(', '|'])
+            let before = &text[..*at];
+            // Properties of a style sheet look alike.
+            let begins = before.is_empty() || before.ends_with([' ', '`', '\'', '(', '|']);
+            begins && !before.ends_with("var(")
         });
         let words = starts.map(|(at, _)| {
             let end = text[at + 2..].find(|c: char| !c.is_ascii_lowercase() && c != '-');
             &text[at..end.map_or(text.len(), |end| at + 2 + end)]
         });
-        words.filter(|word| word.len() > 2).map(str::to_owned).collect()
+        let is_option = |word: &&str| word[2..].starts_with(|c: char| c.is_ascii_lowercase());
+        words.filter(is_option).map(str::to_owned).collect()
     }
 
     /// Sources below `folder` that are no tests.
