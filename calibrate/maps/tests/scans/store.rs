@@ -158,7 +158,7 @@ fn outputs_of_other_runs_are_refused_and_stay_as_they_are() {
         change(&mut other);
         let (found, hint) = refused(&path, &other, StoreMode::Resume);
         assert!(found.contains("holds maps of another run") && found.contains(words), "{found}");
-        assert!(hint.contains("`out`"), "{hint}");
+        assert!(hint.contains("`output`"), "{hint}");
     }
     assert_eq!(digest(&path), before, "nothing changed");
     let (found, _) = refused(folder.path(), &mine, StoreMode::Resume);
