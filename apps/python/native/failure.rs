@@ -63,6 +63,7 @@ pub(crate) fn hint_text(hint: &Hint) -> String {
             "parts" => "whole_parts",
             "cost" | "costs" => "prices",
             "target_light" => "light",
+            "output" => "out",
             other => other,
         };
         match value {
