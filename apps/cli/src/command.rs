@@ -325,8 +325,8 @@ mod named_options {
 
     /// Sources below `folder` that are no tests.
     fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
-        for entry in std::fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
+        for entry in std::fs::read_dir(folder).expect("a folder of sources") {
+            let path = entry.expect("a source").path();
             let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
             if path.is_dir() && !["tests", "examples", "benches", "target"].contains(&name) {
                 sources(&path, found);

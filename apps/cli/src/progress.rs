@@ -111,7 +111,7 @@ impl Waiting {
     pub(crate) fn task(&self, label: &'static str) -> Task {
         let bar = self.bar.clone();
         Task::observed(move |progress| {
-            bar.set_message(format!("{label}: {}", printable(&progress.stage)))
+            bar.set_message(format!("{label}: {}", printable(&progress.stage)));
         })
     }
 }

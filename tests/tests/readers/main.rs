@@ -10,6 +10,9 @@
 //!
 //! A failure names the reader and the number of the input, and leaves the input in the folder of temporary files.
 
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+#![expect(clippy::print_stdout, reason = "with --nocapture you see the counts and the memory")]
+
 mod damage;
 mod table;
 

@@ -499,6 +499,7 @@ mod tests {
         let (_, library, remarks) = opened_as(&script);
         assert_eq!((*library, remarks.len()), (PigmentLibrary::van_gogh_oils(), 1));
         script.library = None;
+        std::fs::write(folder.path().join("before.exr"), "a painting").unwrap();
         script.start = Some("before.exr".to_owned());
         let (script, ..) = opened_as(&script);
         let wanted = folder.path().join("before.exr");
