@@ -257,7 +257,7 @@ pub(crate) const READERS: &[Reader] = &[
         seeds: || {
             // A region by label needs a picture beside the file.
             let region = "name = \"sky\"\npolygon = [[0, 0], [600, 0], [600, 180], [0, 220]]\n\
-                around = [420, 90]\nmap = \"oil-long\"\nflow = 2\ntwinkle = 0.2\nangle_deg = 10\nsize = 1.5\n";
+                around = [420, 90]\nmap = \"oil-long\"\nflow = 2\ntwinkle = 0.2\nsize = 1.5\n";
             vec![made("regions.toml", &format!("[[region]]\n{region}"))]
         },
         read: |name, bytes| words(Regions::from_toml(name, &text(bytes))),
