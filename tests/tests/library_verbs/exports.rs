@@ -191,7 +191,12 @@ fn color() -> impl Strategy<Value = SwatchColor> {
 
 fn palette(groups: &'static str) -> impl Strategy<Value = SwatchFile> {
     let swatch = ("[^\u{0}]{0,9}", groups, color());
-    let swatch = swatch.prop_map(|(name, group, color)| SwatchEntry { name, group, color });
+    let swatch = swatch.prop_map(|(name, group, color)| SwatchEntry {
+        // Readers put blanks in place of characters that nobody sees.
+        name: documents::plain_name(&name),
+        group,
+        color,
+    });
     prop::collection::vec(swatch, 0..9)
         .prop_map(|swatches| SwatchFile { name: String::new(), swatches })
 }

@@ -142,7 +142,7 @@ fn looks_that_are_none() {
             "#fbf9f4 is usual",
         ),
         ("--settings", &torn, 1, "torn.toml, line 1: ", "a line of TOML"),
-        ("--settings", &scan, 1, "none.png", "paper.scan names a picture (PNG"),
+        ("--settings", &scan, 2, "none.png", "put this file where it is named"),
         (
             "--set",
             "edges.strength",
@@ -190,7 +190,7 @@ fn looks_that_are_none() {
     }
     let mesh = folder.pyramid();
     let run = watercolor(&mesh, &["--picture", &out, "--settings", &scan]);
-    refused(&run, 1, "none.png", "paper.scan names a picture (PNG");
+    refused(&run, 2, "none.png", "put this file where it is named");
     for option in ["--preset", "--show-preset"] {
         let run = impasto(&["watercolor", option, "oil"]);
         misused(&run, "[possible values: portrait, landscape, sketch]");
