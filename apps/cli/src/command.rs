@@ -237,7 +237,7 @@ mod tests {
     }
 }
 
-/// Compares the options that hints and messages name with those of the verbs.
+/// Tests that every option named in a hint or a message, such as `--output`, is an option of a verb.
 #[cfg(all(test, feature = "pictures"))]
 mod named_options {
     use std::collections::BTreeSet;

@@ -3,7 +3,8 @@
 //!
 //! `impasto simulate-scan` writes scan and truth. Without a library this maps with the Van Gogh oils
 //! that ship. It prints, for hiding paint by its tone, precision, recall and share error of the maps and
-//! of nonnegative least squares on K/S with masstones (Kubelka-Munk theory with one constant), then the
+//! of nonnegative least squares on K/S with masstones (Kubelka-Munk theory with one constant) and on
+//! K - Q S (with two), then from which probability on the maps are as precise as the former, then the
 //! probabilities of the maps beside the truth, and each pigment. Whites count as one pigment and chrome
 //! yellows too, as in the guide.
 
@@ -36,8 +37,10 @@ struct Trials {
     /// The map in the pixels that least squares unmix too.
     compared: Vec<Trial>,
     seen: ScoreSums,
-    /// Least squares in these pixels.
+    /// Least squares on K/S in these pixels.
     least_squares: ScoreSums,
+    /// Least squares on K - Q S in these pixels.
+    two_constants: ScoreSums,
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -95,10 +98,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             if pixel % EACH == 0 {
                 let values = &pixels.values[pixel * scan_bands..][..scan_bands];
                 let values: Vec<f64> = values.iter().map(|value| f64::from(*value)).collect();
-                let unmixed = Baseline::Ratio.unmix(&paints, &bands.fold_scan(&values)).shares;
-                let told = joined(&mut unmixed.into_iter(), &of_paint);
-                let present = told.iter().map(|share| *share > LEAST).collect();
-                trials.least_squares.add(&Trial { told, present, ..trial.clone() });
+                let values = bands.fold_scan(&values);
+                let methods = [
+                    (Baseline::Ratio, &mut trials.least_squares),
+                    (Baseline::TwoConstants, &mut trials.two_constants),
+                ];
+                for (method, sums) in methods {
+                    let unmixed = method.unmix(&paints, &values).shares;
+                    let told = joined(&mut unmixed.into_iter(), &of_paint);
+                    let present = told.iter().map(|share| *share > LEAST).collect();
+                    sums.add(&Trial { told, present, ..trial.clone() });
+                }
                 trials.seen.add(&trial);
                 trials.compared.push(trial.clone());
             }
@@ -133,17 +143,18 @@ fn as_precise(trials: &[Trial], wanted: f64) -> Option<(f64, f64, f64)> {
 
 fn print<'a>(tones: &[Trials; 3], names: impl Iterator<Item = &'a str>) {
     println!(
-        "hiding paint: pixels; precision, recall, share error of the maps; of the maps and of least squares in the same pixels"
+        "hiding paint: pixels; precision, recall, share error of the maps; of the maps, of least squares on K/S and on K - Q S in the same pixels"
     );
     for (trials, tone) in tones.iter().zip(TONES) {
         let mut all = ScoreSums::default();
         trials.maps.iter().for_each(|trial| all.add(trial));
-        let [all, seen, least_squares] =
-            [&all, &trials.seen, &trials.least_squares].map(|sums| sums.scores());
-        println!("  {tone:6} {:6}  {all} | {seen} | {least_squares}", trials.maps.len());
+        let Trials { maps, seen, least_squares, two_constants, .. } = trials;
+        let [all, seen, one, two] =
+            [&all, seen, least_squares, two_constants].map(|sums| sums.scores());
+        println!("  {tone:6} {:6}  {all} | {seen} | {one} | {two}", maps.len());
     }
     println!(
-        "probability from which the maps are as precise as least squares, their precision and recall there, in the same pixels"
+        "probability from which the maps are as precise as least squares on K/S, their precision and recall there, in the same pixels"
     );
     for (trials, tone) in tones.iter().zip(TONES) {
         let wanted = trials.least_squares.scores().precision;

@@ -180,7 +180,12 @@ fn checked(
         return Err(InstrumentError::Empty { file: file.to_owned(), format: format.title() });
     }
     for spectrum in &mut spectra {
-        let name = plain_name(from_spreadsheet_cell(&spectrum.name));
+        // Only tables come from spreadsheets. In other formats an apostrophe is part of the name.
+        let name = match format {
+            Format::Columns | Format::Workbook => from_spreadsheet_cell(&spectrum.name),
+            _ => &spectrum.name,
+        };
+        let name = plain_name(name);
         if let Some(wanted) = name_violation(&name).filter(|_| !name.is_empty()) {
             return Err(InstrumentError::line(file, spectrum.line, wanted, &name));
         }

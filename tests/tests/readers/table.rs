@@ -23,7 +23,7 @@ use spectra::color_book::ColorBook;
 use spectra::{WavelengthList, lamp_from_bytes};
 use volumes::script::Script;
 
-/// What a reader reads. A test feeds all readers of a kind.
+/// Kind of the files that a reader takes. One test feeds all readers of the same kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
     Measurement,

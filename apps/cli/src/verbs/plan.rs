@@ -85,7 +85,7 @@ impl Plan {
             (Some(first), Some(prior)) => {
                 let both =
                     format!("{} and {} are both libraries", first.display(), prior.display());
-                return Err(Failure::usage(both, "leave --prior out"));
+                return Err(Failure::usage(both, "leave one of them out"));
             }
             (first, prior) => first.or_else(|| prior.clone()),
         };

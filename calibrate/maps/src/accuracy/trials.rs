@@ -490,6 +490,10 @@ pub enum Baseline {
     Ratio,
     /// Spectral angle to the masstones. The nearest masstone gets the share 1.
     Angle,
+    /// Nonnegative least squares on K - Q S with shares of sum 1, where Q is K/S of the pixel
+    /// (Kubelka-Munk theory with two constants): a mixture like the pixel sums to 0 in each band. We
+    /// divide each band by 1 + Q, so that dark bands do not outweigh the others.
+    TwoConstants,
 }
 
 /// Shares that a baseline finds.
@@ -505,7 +509,7 @@ const SUM: f64 = 100.0;
 const SWEEPS: usize = 20_000;
 
 impl Baseline {
-    /// All baselines in the order of a table.
+    /// The baselines that know the masstones alone, in the order of a table.
     pub const ALL: [Self; 4] = [Self::Reflectance, Self::Absorbance, Self::Ratio, Self::Angle];
 
     /// Name for a table.
@@ -516,22 +520,34 @@ impl Baseline {
             Self::Absorbance => "-log R, NNLS sum 1",
             Self::Ratio => "K/S one constant, NNLS",
             Self::Angle => "spectral angle",
+            Self::TwoConstants => "K - Q S two constants, NNLS sum 1",
         }
     }
 
     /// Shares of the pigments of `paints` in a film. Pass its reflectance on their bands.
     #[must_use]
     pub fn unmix(self, paints: &Paints, reflectance: &[f64]) -> Unmixed {
+        let ratio = |reflectance: f64| {
+            let internal = paints.surface.internal_from_measured(reflectance).unwrap_or(0.0);
+            absorption_over_scattering(internal.clamp(1e-3, 1.0))
+        };
+        if self == Self::TwoConstants {
+            let ratios: Vec<f64> = reflectance.iter().copied().map(ratio).collect();
+            let curves = paints.absorption.iter().zip(&paints.scattering);
+            let columns = curves.map(|(k, s)| {
+                let bands = k.iter().zip(s).zip(&ratios);
+                bands.map(|((k, s), q)| (k - q * s) / (1.0 + q)).chain([SUM]).collect()
+            });
+            let target: Vec<f64> = ratios.iter().map(|_| 0.0).chain([SUM]).collect();
+            return Unmixed::of(nonnegative(&columns.collect::<Vec<Vec<f64>>>(), &target));
+        }
         let masstones = (0..paints.count()).map(|p| paints.reflectance(&[(p, 1.0)]));
         let mut spectra: Vec<Vec<f64>> = masstones.chain([reflectance.to_vec()]).collect();
         for value in spectra.iter_mut().flatten() {
             *value = match self {
-                Self::Reflectance | Self::Angle => *value,
+                Self::Reflectance | Self::Angle | Self::TwoConstants => *value,
                 Self::Absorbance => -value.max(1e-3).ln(),
-                Self::Ratio => {
-                    let internal = paints.surface.internal_from_measured(*value).unwrap_or(0.0);
-                    absorption_over_scattering(internal.clamp(1e-3, 1.0))
-                }
+                Self::Ratio => ratio(*value),
             };
         }
         let mut target = spectra.pop().unwrap_or_default();
@@ -551,10 +567,16 @@ impl Baseline {
             target.push(SUM);
             columns.iter_mut().for_each(|column| column.push(SUM));
         }
-        let mut shares = nonnegative(&columns, &target);
+        Unmixed::of(nonnegative(&columns, &target))
+    }
+}
+
+impl Unmixed {
+    /// Scales nonnegative parts to the sum 1.
+    fn of(mut shares: Vec<f64>) -> Self {
         let sum: f64 = shares.iter().sum::<f64>().max(1e-12);
         shares.iter_mut().for_each(|share| *share /= sum);
-        Unmixed { shares }
+        Self { shares }
     }
 }
 

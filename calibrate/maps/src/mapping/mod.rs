@@ -94,7 +94,8 @@ impl Mapper {
         let of_palette = MapSettings { palette: names, ground: None, ..settings.clone() };
         let ground = match settings.ground.clone() {
             Some(ground) => {
-                shows(&ground, library, wavelengths, (&of_palette, &model_error))?.then_some(ground)
+                is_distinct(&ground, library, wavelengths, (&of_palette, &model_error))?
+                    .then_some(ground)
             }
             None => None,
         };
@@ -421,8 +422,9 @@ impl Mapper {
     }
 }
 
-/// Whether the ground looks like none of the pigments of `settings`, so that it may be a column of its own.
-fn shows(
+/// Whether the ground looks like none of the pigments that `settings` name. If it looks like one, the two
+/// would only compete, and the ground is no column.
+fn is_distinct(
     ground: &Ground,
     library: &PigmentLibrary,
     wavelengths: &[f64],
@@ -440,8 +442,8 @@ fn shows(
     Ok((0..last).all(|pigment| confusion.of(last, pigment) < LIKE_MEASURED))
 }
 
-/// The library of a map: with the ground as its last pigment if it is a column.
-pub(crate) fn with_ground<'a>(
+/// `library`, with `ground` as one more pigment at its end.
+fn with_ground<'a>(
     library: &'a PigmentLibrary,
     ground: Option<&Ground>,
 ) -> Result<Cow<'a, PigmentLibrary>, MapError> {
@@ -451,8 +453,9 @@ pub(crate) fn with_ground<'a>(
     })
 }
 
-/// Standard deviation of the logarithm of each paint's strength: that of the left-out mixtures, and at
-/// least [`UNKNOWN_LEVEL`] where S is not known.
+/// For each paint, the standard deviation of the logarithm of its strength. For paints with known S we
+/// estimate it from the left-out mixtures. For masstones and the ground, a factor of [`UNKNOWN_LEVEL`] is
+/// one standard deviation.
 fn strength_sds(
     library: &PigmentLibrary,
     prepared: &Prepared,

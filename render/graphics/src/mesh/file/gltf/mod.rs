@@ -277,7 +277,7 @@ const TRIANGLES: u64 = 4;
 const STRIP: u64 = 5;
 const FAN: u64 = 6;
 
-/// From the coordinates of a node to those of its parent.
+/// The matrix that takes a point in the coordinates of a node to the coordinates of its parent.
 fn matrix(node: &Node) -> DMat4 {
     match &node.matrix {
         Some(columns) => DMat4::from_cols_array(columns),
