@@ -144,7 +144,7 @@ pub fn column_width<S: AsRef<str>>(cells: impl IntoIterator<Item = S>, least: us
 }
 
 /// Whether spreadsheets take `text` for a formula: it begins with `=`, `+`, `-` or `@`, or a tab or a line break,
-/// which they skip, and is no number.
+/// which they skip, and is not a number.
 fn is_formula(text: &str) -> bool {
     let mut letters = text.chars();
     let begins = letters.next().is_some_and(|first| "=+-@\t\r\n".contains(first));

@@ -183,7 +183,7 @@ impl Console<'_> {
     }
 }
 
-/// Whether a terminal obeys a character of JSON, which has several lines.
+/// Whether we escape `c` in JSON, because a terminal would obey it. Line breaks stay: JSON has several lines.
 fn is_obeyed(c: char) -> bool {
     c != '\n' && documents::is_hidden(c)
 }

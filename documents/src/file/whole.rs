@@ -107,7 +107,7 @@ pub const EXPANSION: u64 = 1400;
 
 /// A header announces more than its file can hold, so the file is truncated or made to take the memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("{file_bytes} bytes cannot hold the {announced} that its header tells of")]
+#[error("{file_bytes} bytes cannot hold the {announced} that its header announces")]
 pub struct ExpansionError {
     /// Length of the file.
     pub file_bytes: u64,

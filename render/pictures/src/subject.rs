@@ -74,7 +74,7 @@ pub enum Subject {
     Mesh(Box<Mesh>, Vec<Camera>, (usize, usize)),
 }
 
-/// A subject that was read, with all that its files tell.
+/// A subject that was read from its files.
 #[derive(Debug)]
 pub struct OpenSubject {
     /// The model or picture to paint.

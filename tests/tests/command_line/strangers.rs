@@ -1,5 +1,5 @@
 //! Texts from files of strangers: names too long or with control characters are refused with their place,
-//! nothing that a terminal obeys is printed, long texts are cut, and cells are no formulas.
+//! nothing that a terminal obeys is printed, long texts are cut, and no cell is a formula.
 
 use std::path::Path;
 

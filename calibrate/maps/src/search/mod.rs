@@ -37,7 +37,7 @@ const FAR: f32 = 30.0;
 /// We skip sets of three if their chi-square exceeds this many times the best of one or two
 /// pigments, plus [`FAR`].
 const WORSE: f64 = 1.5;
-/// Score and key of no set.
+/// Score and key as long as no set was found.
 const NOTHING: (f32, u32) = (f32::INFINITY, u32::MAX);
 
 /// Everything that a search needs, except the pixel.

@@ -64,7 +64,7 @@ impl Health {
     }
 }
 
-/// A grid with steps below this, in nm, is finer than any instrument resolves, so the step is a slip.
+/// A grid with steps below this, in nm, is finer than any instrument resolves, so the step is a mistake.
 const FINE_STEP_NM: f64 = 0.1;
 /// Surfaces of paint reflect 0.02 to 0.1 of the light that arrives. Titanium dioxide alone would reflect 0.2.
 const MOST_K1: f64 = 0.2;

@@ -100,8 +100,8 @@ impl PaintEngine {
         }
     }
 
-    /// Name of what decides the last digits of a picture: the graphics device, or the processor with any number of
-    /// threads.
+    /// Name of the device that computes the light. Pictures of two devices may differ in their last digits. On
+    /// the processor the number of threads changes nothing, so the name does not hold it.
     #[must_use]
     pub fn device_name(&self) -> String {
         match self {

@@ -67,8 +67,8 @@ impl Painting {
         self.set_brush_paint(brush, &paint)
     }
 
-    /// Amount in mm for which a brush has room on which there is `paint`. Of more, [`Painting::load`] adds as
-    /// much.
+    /// Greatest load, in mm, that still fits on a brush that holds `paint`. [`Painting::load`] adds no more
+    /// than this, even if you ask for more.
     ///
     /// # Panics
     /// If there is no such brush, or `paint` does not have the cells of the head.

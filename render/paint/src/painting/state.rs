@@ -249,8 +249,8 @@ impl Painting {
         self.engine.name()
     }
 
-    /// Name of what decides the last digits of a picture: the graphics device, or the processor with any number of
-    /// threads.
+    /// Name of the device that computes the light. Pictures of two devices may differ in their last digits. On
+    /// the processor the number of threads changes nothing, so the name does not hold it.
     pub(crate) fn device_name(&self) -> String {
         self.engine.device_name()
     }

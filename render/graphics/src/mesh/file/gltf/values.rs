@@ -254,7 +254,7 @@ impl<'a> Values<'a> {
     }
 }
 
-/// The number of a type in a file.
+/// The number by which a file names this type of numbers (glTF 2.0, section 3.6.2.2).
 fn code(component: Component) -> u64 {
     match component {
         Component::U8 => 5121,
