@@ -70,15 +70,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let column_of = |name: &String| columns.iter().position(|c| c.pigments.contains(name));
     let of_truth: Vec<Option<usize>> = truth.pigments().iter().map(column_of).collect();
     let of_paint: Vec<Option<usize>> = paints.names.iter().map(column_of).collect();
-    let joined = |shares: &mut dyn Iterator<Item = f64>, of: &[Option<usize>]| {
-        let mut list = vec![0.0; columns.len()];
-        for (share, column) in shares.zip(of) {
-            if let Some(column) = column {
-                list[*column] += share;
-            }
-        }
-        list
-    };
     let scan_bands = pixels.values.len() / pixels.places.len().max(1);
     let mut tones: [Trials; 3] = std::array::from_fn(|_| Trials::default());
     let mut index = 0;
@@ -92,7 +83,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 continue;
             }
             let own = &known.share[at * known.pigments..][..known.pigments];
-            let shares = joined(&mut own.iter().map(|share| f64::from(*share)), &of_truth);
+            let shares =
+                by_column(own.iter().map(|share| f64::from(*share)), &of_truth, columns.len());
             let trial = Trial { least: LEAST, ..Trial::of_map(&maps, pixel, &shares) };
             let trials = &mut tones[tone(known.mean_reflectance[at])];
             if pixel % EACH == 0 {
@@ -105,7 +97,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 ];
                 for (method, sums) in methods {
                     let unmixed = method.unmix(&paints, &values).shares;
-                    let told = joined(&mut unmixed.into_iter(), &of_paint);
+                    let told = by_column(unmixed, &of_paint, columns.len());
                     let present = told.iter().map(|share| *share > LEAST).collect();
                     sums.add(&Trial { told, present, ..trial.clone() });
                 }
@@ -117,6 +109,21 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     print(&tones, columns.iter().map(|column| column.name.as_str()));
     Ok(())
+}
+
+/// Sums of the shares of each column of the maps. A pigment without a column is left out.
+fn by_column(
+    shares: impl IntoIterator<Item = f64>,
+    column_of: &[Option<usize>],
+    columns: usize,
+) -> Vec<f64> {
+    let mut sums = vec![0.0; columns];
+    for (share, column) in shares.into_iter().zip(column_of) {
+        if let Some(column) = column {
+            sums[*column] += share;
+        }
+    }
+    sums
 }
 
 /// The least probability from which pigments of the maps are present with the precision `wanted`, with this

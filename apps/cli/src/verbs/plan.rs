@@ -252,10 +252,6 @@ pub(super) fn print_forecast(
     ))?;
     let width = column_width(&paints.names, 0);
     console.line(format!("{:width$}       K       S   usual K  usual S", ""))?;
-    let percent = |value: f64| match 100.0 * value {
-        large if large > 999.0 => ">999".to_owned(),
-        value => format!("{value:.1}"),
-    };
     let pairs = forecast.deviations.iter().zip(&forecast.usual_deviations);
     for (name, (own, usual)) in paints.names.iter().zip(pairs) {
         console.line(format!(
@@ -267,4 +263,12 @@ pub(super) fn print_forecast(
         ))?;
     }
     Ok(())
+}
+
+/// A share as a percentage with one digit, for columns of seven letters.
+fn percent(value: f64) -> String {
+    match 100.0 * value {
+        large if large > 999.0 => ">999".to_owned(),
+        value => format!("{value:.1}"),
+    }
 }

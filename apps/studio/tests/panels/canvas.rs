@@ -483,10 +483,7 @@ fn moved(window: &mut Window, context: &Context) -> Vec<Between> {
         show(window);
     }
     // The last paint comes from the worker later.
-    for _ in 0..60 {
-        std::thread::sleep(Duration::from_millis(10));
-        show(window);
-    }
+    window.settle_by(show);
     shown
 }
 

@@ -139,15 +139,21 @@ impl Window {
     /// Draws frames until the worker has executed all commands and the window shows the
     /// result.
     pub(crate) fn settle(&mut self) {
+        self.settle_by(|window| window.harness.step());
+        self.harness.run_ok();
+    }
+
+    /// Takes turns until the worker answered all that was asked of it before.
+    pub(crate) fn settle_by(&mut self, mut turn: impl FnMut(&mut Self)) {
         self.fences += 1;
         let fence = u64::MAX - self.fences;
-        self.harness.step();
+        turn(self);
         self.studio_mut().ask(Command::Recording(fence));
         let start = Instant::now();
         let mut quiet = Instant::now();
         let mut events = self.studio().event_count();
         loop {
-            self.harness.step();
+            turn(self);
             let answered = self.studio().last_recording() == Some(fence);
             if self.studio().event_count() != events {
                 events = self.studio().event_count();
@@ -158,7 +164,6 @@ impl Window {
             assert!(start.elapsed() < PATIENCE, "{}: the worker does not end", self.name);
             std::thread::sleep(Duration::from_millis(2));
         }
-        self.harness.run_ok();
     }
 
     pub(crate) fn frame(&mut self, events: Vec<Event>) {

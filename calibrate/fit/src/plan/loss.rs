@@ -84,10 +84,8 @@ fn growth(paints: &PaintSet, few: &[RelativeDeviation], full: &[RelativeDeviatio
     let median = |of: &[RelativeDeviation], get: fn(&RelativeDeviation) -> Option<f64>| {
         percentile(&of.iter().filter_map(get).collect::<Vec<_>>(), 50.0)
     };
-    let absorption = |of: &RelativeDeviation| Some(of.absorption);
-    let scattering = |of: &RelativeDeviation| of.scattering;
-    let [k, full_k] = [few, full].map(|of| percent(median(of, absorption)));
-    let [s, full_s] = [few, full].map(|of| percent(median(of, scattering)));
+    let [k, full_k] = [few, full].map(|of| percent(median(of, |of| Some(of.absorption))));
+    let [s, full_s] = [few, full].map(|of| percent(median(of, |of| of.scattering)));
     let mut text = format!(
         "; expected deviations: K {k} and S {s} instead of {full_k} and {full_s} (median of {})",
         counted(paints.names.len(), "paint")

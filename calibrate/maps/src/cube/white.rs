@@ -100,6 +100,10 @@ pub(crate) fn guessed_white(
 mod tests {
     use super::*;
 
+    fn units(text: &str) -> Vec<(&str, &str)> {
+        vec![("data units", text)]
+    }
+
     fn white(file: &str, told: &[(&str, &str)], most: f64, largest: f64) -> Option<f64> {
         let told: Vec<_> = told.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())).collect();
         guessed_white(Path::new(file), &told, most, largest).map(|guessed| guessed.white)
@@ -107,7 +111,6 @@ mod tests {
 
     #[test]
     fn a_white_is_guessed_by_words_and_values_together() {
-        let units = |text| vec![("data units", text)];
         for (file, told, most, largest, expected) in [
             ("a.hdr", units("Reflectance"), 8700.0, 9400.0, Some(10_000.0)),
             ("a.hdr", units("Reflectance"), 11_900.0, 14_000.0, Some(10_000.0)),

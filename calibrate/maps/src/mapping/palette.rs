@@ -52,11 +52,9 @@ impl Palette {
         places.sort_unstable();
         places.dedup();
         let is_left_out = |id: &PigmentId| settings.palette.is_empty() && !places.contains(id);
-        let named = |places: Vec<PigmentId>| -> Vec<String> {
-            places.into_iter().map(|id| library[id].name.clone()).collect()
-        };
-        let left_out = named(library.ids().filter(is_left_out).collect());
-        let names = named(places);
+        let left_out = library.ids().filter(is_left_out).map(|id| library[id].name.clone());
+        let left_out: Vec<String> = left_out.collect();
+        let names: Vec<String> = places.iter().map(|id| library[*id].name.clone()).collect();
         let remarks = remarks(library, &left_out, &names);
         Ok(Self { names, left_out, remarks })
     }
