@@ -27,8 +27,8 @@ pub mod request;
 pub mod settings;
 
 pub use names::{
-    LONGEST_NAME, column_width, excerpt, from_spreadsheet_cell, is_hidden, name_violation,
-    plain_name, printable, spreadsheet_cell,
+    LONGEST_NAME, column_width, excerpt, foreign_message, from_spreadsheet_cell, is_hidden,
+    name_violation, plain_name, printable, spreadsheet_cell,
 };
 pub use task::{Cancellation, Cancelled, Progress, Steps, Task};
 pub use wording::{

@@ -111,6 +111,22 @@ fn cut(text: &str, most: usize, end: usize) -> Cow<'_, str> {
     Cow::Owned(format!("{start} [{} letters more] {rest}", letters - most))
 }
 
+/// The message of an error from the reader of a foreign format, in one line. Such readers quote what they do not
+/// understand, which a damaged file may make as long as itself: you get at most 300 letters of it.
+///
+/// ```
+/// use documents::foreign_message;
+///
+/// assert_eq!(foreign_message(&"no such\ntag"), "no such tag");
+/// let long = foreign_message(&"9, ".repeat(13_000));
+/// assert!(long.len() < 340 && long.contains(" letters more] "), "{long}");
+/// ```
+#[must_use]
+pub fn foreign_message(error: &impl std::fmt::Display) -> String {
+    const LONGEST: usize = 300;
+    cut(&plain_name(&error.to_string()), LONGEST, 60).into_owned()
+}
+
 /// The start of a cell or a line that an error quotes: at most 60 letters, without line breaks and blanks at its
 /// ends.
 ///

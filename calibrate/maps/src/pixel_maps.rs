@@ -360,6 +360,16 @@ pub enum MapError {
         /// Name of the second group.
         second: String,
     },
+    /// A group has a name that it cannot have.
+    #[error("a group is named `{name}`, expected {expected}")]
+    #[hint("give the [group] a short name, e.g. whites")]
+    #[fault(Setting)]
+    GroupName {
+        /// Start of the name.
+        name: String,
+        /// Names that a group may have.
+        expected: &'static str,
+    },
     /// The ground is not a reflectance, or does not cover the bands of the scan.
     #[error("the spectrum of the ground {0}")]
     #[hint(

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use calibrate::{Residuals, ResidualsError};
 use documents::request::{RequestError, from_text, from_text_or_keys};
-use documents::{Task, hint::Explain};
+use documents::{Task, excerpt, hint::Explain};
 use pigment::PigmentLibrary;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -324,7 +324,7 @@ fn group(text: &str) -> Result<PigmentGroup, RequestError> {
     });
     named.ok_or_else(|| {
         RequestError::value(
-            format!("takes NAME=PIGMENT,PIGMENT.., found `{text}`"),
+            format!("takes NAME=PIGMENT,PIGMENT.., found `{}`", excerpt(text)),
             "try [group=\"whites=Lead White,Zinc White\"]",
         )
     })

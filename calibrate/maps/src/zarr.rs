@@ -270,13 +270,12 @@ impl ArrayMetadata {
                 let codecs = settings["codecs"].as_array().unwrap_or(&none);
                 let chain = Chain::of(codecs, axes)?;
                 let at_end = check_index(settings)?;
-                if inner.len() != axes
-                    || outer.len() != axes
-                    || !outer
-                        .iter()
-                        .zip(&inner)
-                        .all(|(outer, inner): (&usize, &usize)| *inner > 0 && outer % inner == 0)
-                {
+                let is_whole = inner.len() == axes
+                    && outer.len() == axes
+                    && !inner.contains(&0)
+                    && !outer.contains(&0)
+                    && outer.iter().zip(&inner).all(|(outer, inner)| outer % inner == 0);
+                if !is_whole {
                     let problem = format!("has shards of {outer:?} and chunks of {inner:?}");
                     return Err(ZarrFault::unread(problem));
                 }
@@ -668,6 +667,10 @@ mod tests {
         for outer in [[1 << 33, 1 << 33, 1], [1 << 25, 1, 1]] {
             let fault = sharded(&outer, &[1, 1, 1]).unwrap_err();
             assert!(fault.problem.contains("chunks in a shard"), "{fault:?}");
+        }
+        for [outer, inner] in [[0, 4], [4, 0], [6, 4]] {
+            let fault = sharded(&[8, 8, outer], &[4, 8, inner]).unwrap_err();
+            assert!(fault.problem.contains("has shards of [8, 8, "), "{fault:?}");
         }
     }
 

@@ -354,6 +354,11 @@ fn settings_out_of_range_are_refused() {
     let twice = MapSettings { groups: vec![group("a"), group("b")], ..usual };
     let error = Mapper::new(&oils, &nm, &twice).unwrap_err();
     assert!(matches!(error, MapError::TwoGroups { .. }), "{error}");
+    let long = group(&"w".repeat(70_000));
+    let settings = MapSettings { groups: vec![long], ..MapSettings::default() };
+    let error = Mapper::new(&oils, &nm, &settings).unwrap_err();
+    assert!(matches!(error, MapError::GroupName { .. }), "{error}");
+    assert!(error.to_string().ends_with("expected a name of at most 200 letters"), "{error}");
 }
 
 fn group(name: &str) -> PigmentGroup {

@@ -4,6 +4,7 @@
 use std::io::Cursor;
 
 use documents::file::check_expansion;
+use documents::foreign_message;
 use documents::hint::Explain;
 use exr::meta::MetaData;
 use exr::meta::attribute::Chromaticities;
@@ -95,7 +96,10 @@ pub fn linear_picture(name: &str, bytes: &[u8]) -> Result<Picture, ExrPictureErr
 }
 
 fn no_picture(name: &str) -> impl Fn(exr::error::Error) -> ExrPictureError {
-    move |error| ExrPictureError::NoPicture { name: name.to_owned(), reason: error.to_string() }
+    move |error| ExrPictureError::NoPicture {
+        name: name.to_owned(),
+        reason: foreign_message(&error),
+    }
 }
 
 /// Matrix from linear light of other primaries to linear sRGB. `None` for the primaries of sRGB,

@@ -5,6 +5,7 @@ use std::io::Cursor;
 use std::path::Path;
 
 use documents::file::{FileError, has_memory, read};
+use documents::foreign_message;
 use documents::hint::Explain;
 use image::{
     ColorType, DynamicImage, ExtendedColorType, ImageBuffer, ImageDecoder, ImageFormat,
@@ -62,7 +63,7 @@ impl Photograph {
     pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Self, PhotographError> {
         let rejected = |error: image::ImageError| PhotographError::NoPicture {
             name: name.to_owned(),
-            reason: error.to_string(),
+            reason: foreign_message(&error),
         };
         if is_cut_off_jpeg(bytes) {
             return Err(PhotographError::CutOff { name: name.to_owned(), bytes: bytes.len() });
@@ -101,9 +102,12 @@ impl Photograph {
             .map_err(|reason| refused(ProfileError::Unusable(reason)))?;
         let orientation = decoder.orientation().map_err(rejected)?;
         let profile = match image::guess_format(bytes) {
-            Ok(ImageFormat::Tiff) => tiff_profile(bytes).map_err(|error| {
-                PhotographError::NoPicture { name: name.to_owned(), reason: error.to_string() }
-            })?,
+            Ok(ImageFormat::Tiff) => {
+                tiff_profile(bytes).map_err(|error| PhotographError::NoPicture {
+                    name: name.to_owned(),
+                    reason: foreign_message(&error),
+                })?
+            }
             _ => decoder.icc_profile().map_err(rejected)?,
         };
         let mut image = DynamicImage::from_decoder(decoder).map_err(rejected)?;
@@ -393,7 +397,7 @@ pub fn to_srgb(image: DynamicImage, profile: &[u8]) -> Result<DynamicImage, Prof
 }
 
 fn unusable(error: moxcms::CmsError) -> ProfileError {
-    ProfileError::Unusable(error.to_string())
+    ProfileError::Unusable(foreign_message(&error))
 }
 
 /// Converts a picture like [`to_srgb`], from the profile `source`.

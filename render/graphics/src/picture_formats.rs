@@ -2,11 +2,12 @@
 //! bytes. Also checks for JPEG files that were cut off or damaged, because decoders paint the missing
 //! part grey, and for colour profiles that would fill the memory.
 
-use std::io::{self, Read};
+use std::io::{self, Cursor, Read};
 use std::path::Path;
 
+use documents::foreign_message;
 use flate2::read::ZlibDecoder;
-use image::ImageFormat;
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::bytestream::ZCursor;
 use zune_jpeg::zune_core::options::DecoderOptions;
@@ -125,7 +126,7 @@ pub(crate) fn fault_of_profile(bytes: &[u8]) -> Option<String> {
 /// picture, and the colour profile of a PNG file can fill the memory. You get `None` for other files, and for
 /// files that are whole.
 #[must_use]
-pub fn fault_of_coding(bytes: &[u8]) -> Option<String> {
+fn fault_of_coding(bytes: &[u8]) -> Option<String> {
     if is_cut_off_jpeg(bytes) {
         return Some("the JPEG file is cut off: its end marker is missing".to_owned());
     }
@@ -133,6 +134,39 @@ pub fn fault_of_coding(bytes: &[u8]) -> Option<String> {
         return Some(format!("the colour profile cannot be used: {reason}"));
     }
     damage_of_jpeg(bytes).map(|reason| format!("the JPEG file is damaged: {reason}"))
+}
+
+/// Most pixels of [`small_picture`]: 8192 x 8192.
+const MOST_SMALL: u64 = 1 << 26;
+/// Longest side of [`small_picture`] in pixels: the usual limit of graphics devices.
+const LONGEST_SMALL: u32 = 1 << 14;
+
+/// Decodes a texture, a relief or another picture of at most 64 Mpixel and 16,384 pixels a side. This
+/// leaves its colour profile out. An error is the reason in words, without the file.
+///
+/// ```
+/// use graphics::picture_formats::small_picture;
+///
+/// assert!(small_picture(b"no picture").is_err());
+/// ```
+pub fn small_picture(bytes: &[u8]) -> Result<DynamicImage, String> {
+    if let Some(fault) = fault_of_coding(bytes) {
+        return Err(fault);
+    }
+    let mut reader = ImageReader::new(Cursor::new(bytes))
+        .with_guessed_format()
+        .map_err(|error| foreign_message(&error))?;
+    let mut limits = Limits::default();
+    limits.max_image_width = Some(LONGEST_SMALL);
+    limits.max_image_height = Some(LONGEST_SMALL);
+    reader.limits(limits);
+    let decoder = reader.into_decoder().map_err(|error| foreign_message(&error))?;
+    let (width, height) = decoder.dimensions();
+    if u64::from(width) * u64::from(height) > MOST_SMALL {
+        return Err(format!("it has {width} x {height} pixels, more than 64 Mpixel"));
+    }
+    let picture = DynamicImage::from_decoder(decoder);
+    picture.map_err(|error| foreign_message(&error))
 }
 
 /// Whether `bytes` are a JPEG file that stops before its end marker (ISO/IEC 10918-1, B.1.1). You
@@ -189,7 +223,6 @@ mod tests {
     use image::codecs::jpeg::JpegEncoder;
     use image::codecs::png::PngEncoder;
     use image::{ExtendedColorType, ImageEncoder};
-    use std::io::Cursor;
 
     #[test]
     fn profiles_that_fill_the_memory_are_refused() {
@@ -213,6 +246,24 @@ mod tests {
         for length in 0..200 {
             assert_eq!(fault_of_coding(&huge[..length]), None, "{length} bytes");
         }
+    }
+
+    #[test]
+    fn small_pictures_have_64_mpixel_at_most() {
+        fn black(width: u32, height: u32) -> Vec<u8> {
+            let mut file = Vec::new();
+            let mut encoder = png::Encoder::new(&mut file, width, height);
+            encoder.set_depth(png::BitDepth::One);
+            let row = width.div_ceil(8) as usize;
+            let mut writer = encoder.write_header().unwrap();
+            writer.write_image_data(&vec![0; row * height as usize]).unwrap();
+            writer.finish().unwrap();
+            file
+        }
+        assert_eq!(small_picture(&black(16_384, 4)).unwrap().height(), 4);
+        let reason = small_picture(&black(9000, 9000)).unwrap_err();
+        assert_eq!(reason, "it has 9000 x 9000 pixels, more than 64 Mpixel");
+        assert!(small_picture(&black(16_385, 4)).is_err(), "a side is too long");
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use documents::hint::Explain;
 
-use crate::picture_formats::{MOST_SIDE, NAMES, fault_of_coding};
+use crate::picture_formats::{NAMES, small_picture};
 
 /// Number of samples of a [`ToneRamp`], joined by straight lines.
 pub const TONES: usize = 256;
@@ -70,24 +70,12 @@ impl ToneRamp {
         }
         let bytes =
             documents::file::disk::read(path).map_err(|error| rejected(error.to_string(), path))?;
-        if let Some(fault) = fault_of_coding(&bytes) {
-            return Err(rejected(fault, path));
-        }
-        let reader = image::ImageReader::new(std::io::Cursor::new(bytes));
-        let mut reader =
-            reader.with_guessed_format().map_err(|error| rejected(error.to_string(), path))?;
-        let mut limits = image::Limits::default();
-        limits.max_image_width = Some(MOST_SIDE);
-        limits.max_image_height = Some(MOST_SIDE);
-        reader.limits(limits);
-        let picture =
-            reader.decode().map_err(|error| rejected(error.to_string(), path))?.into_rgb16();
-        let y = picture.height() / 2;
+        let picture = small_picture(&bytes).map_err(|reason| rejected(reason, path))?;
+        let row = picture.crop_imm(0, picture.height() / 2, picture.width(), 1).into_rgb16();
         Self::from_greys(
-            &(0..picture.width())
-                .map(|x: u32| {
-                    let sum: f32 =
-                        picture.get_pixel(x, y).0.iter().map(|&value| f32::from(value)).sum();
+            &row.pixels()
+                .map(|pixel: &image::Rgb<u16>| {
+                    let sum: f32 = pixel.0.iter().map(|&value| f32::from(value)).sum();
                     sum / (3.0 * f32::from(u16::MAX))
                 })
                 .collect::<Vec<_>>(),

@@ -3,6 +3,7 @@
 
 use std::io::{Cursor, Read};
 
+use documents::excerpt;
 use encoding_rs::{Encoding, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
 use zip::ZipArchive;
 
@@ -240,12 +241,12 @@ impl<'a> Archive<'a> {
     pub(super) fn read(&mut self, name: &str) -> Result<Vec<u8>, InstrumentError> {
         let faulty = |fault: String| InstrumentError::faulty(self.file, "zip", fault);
         let entry = self.archive.by_name(name);
-        let entry = entry.map_err(|_| faulty(format!("`{name}` cannot be unpacked")))?;
+        let entry = entry.map_err(|_| faulty(format!("`{}` cannot be unpacked", excerpt(name))))?;
         let mut bytes = Vec::new();
         let read = entry.take(MOST_BYTES as u64 + 1).read_to_end(&mut bytes);
-        read.map_err(|_| faulty(format!("`{name}` cannot be unpacked")))?;
+        read.map_err(|_| faulty(format!("`{}` cannot be unpacked", excerpt(name))))?;
         if bytes.len() > MOST_BYTES {
-            return Err(faulty(format!("`{name}` unpacks to more than {MOST_MB} MB")));
+            return Err(faulty(format!("`{}` unpacks to more than {MOST_MB} MB", excerpt(name))));
         }
         Ok(bytes)
     }

@@ -13,7 +13,7 @@ use calamine::{DataRef, DataType, Reader, Xlsx};
 use super::decode::{Archive, MOST_BYTES, MOST_MB};
 use super::measured::InstrumentError;
 use documents::file::split_file_and_sheet;
-use documents::name_list;
+use documents::{excerpt, foreign_message, name_list};
 
 const FORMAT: &str = "Excel workbook";
 
@@ -60,8 +60,19 @@ pub(super) fn sheet(file: &str, bytes: &[u8]) -> Result<Sheet, InstrumentError> 
             return Err(InstrumentError::too_large(file, "the list of its texts", MOST_MB));
         }
     }
+    for name in archive.all(|name| name.to_ascii_lowercase().ends_with(".xml")) {
+        // The reader of workbooks names a part that it needs and cannot unpack.
+        let Ok(xml) = archive.read(&name) else { continue };
+        if let Some(place) = place_outside(&xml) {
+            let place = excerpt(&String::from_utf8_lossy(place));
+            return Err(faulty(format!(
+                "`{}` names the cell `{place}`, which no sheet has",
+                excerpt(&name)
+            )));
+        }
+    }
     let mut workbook: Xlsx<_> =
-        Xlsx::new(Cursor::new(bytes)).map_err(|reason| faulty(reason.to_string()))?;
+        Xlsx::new(Cursor::new(bytes)).map_err(|reason| faulty(foreign_message(&reason)))?;
     let mut sheets = Vec::new();
     let mut left = MOST_BYTES;
     for name in workbook.sheet_names() {
@@ -70,7 +81,9 @@ pub(super) fn sheet(file: &str, bytes: &[u8]) -> Result<Sheet, InstrumentError> 
         let mut cells = Vec::new();
         loop {
             let cell = reader.next_cell();
-            let cell = cell.map_err(|reason| faulty(format!("sheet `{name}`: {reason}")))?;
+            let cell = cell.map_err(|reason| {
+                faulty(format!("sheet `{name}`: {}", foreign_message(&reason)))
+            })?;
             let Some(cell) = cell else { break };
             let (row, column) = cell.get_position();
             if column >= MOST_COLUMNS {
@@ -115,6 +128,26 @@ pub(super) fn sheet(file: &str, bytes: &[u8]) -> Result<Sheet, InstrumentError> 
         return Err(InstrumentError::too_large(file, what, MOST_MB));
     };
     Ok(Sheet { name, text, others: sheets.into_iter().map(|(name, _)| name).collect() })
+}
+
+/// The first place in the XML of a sheet that has too many letters or digits for a sheet. The reader of
+/// workbooks calculates its row and column without looking at their size.
+fn place_outside(xml: &[u8]) -> Option<&[u8]> {
+    let elements = xml.split(|byte| *byte == b'<').filter(|element| {
+        let name = element.split(|byte| b"/> \t\r\n".contains(byte)).next().unwrap_or_default();
+        let name = name.rsplit(|byte| *byte == b':').next().unwrap_or_default();
+        [&b"c"[..], b"row", b"f", b"dimension", b"mergeCell"].contains(&name)
+    });
+    elements
+        .flat_map(|element| element.split(|byte| b"\"'".contains(byte)).skip(1).step_by(2))
+        .find(|value| {
+            value.split(|byte| *byte == b':').any(|place| {
+                let letters = place.iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
+                let digits = &place[letters..];
+                let is_place = !digits.is_empty() && digits.iter().all(u8::is_ascii_digit);
+                is_place && (letters > 3 || digits.len() > 7)
+            })
+        })
 }
 
 /// Number of texts that cells share: those that the list holds, or as many as it announces, for which the reader
@@ -357,6 +390,15 @@ pub(super) mod tests {
         let wide = ROWS.replace("D4", "XFD4");
         let wide = sheet("some.xlsx", &workbook(&[("A", &wide)])).unwrap_err().to_string();
         assert!(wide.contains("sheet `A`: more than 8192 columns"), "{wide}");
+        for (found, place) in [
+            ("r=\"B184467440737095516163\"", "B184467440737095516163"),
+            ("r='FFFFFFFB3'", "FFFFFFFB3"),
+            ("s=\"1\" r=\"A1:B99999999\"", "A1:B99999999"),
+        ] {
+            let far = format!("<row r=\"1\"><c {found}><v>1</v></c></row>");
+            let far = sheet("some.xlsx", &workbook(&[("A", &far)])).unwrap_err().to_string();
+            assert!(far.contains(&format!("names the cell `{place}`")), "{far}");
+        }
         let bytes = workbook(&[("A", ROWS)]);
         for length in 0..bytes.len() {
             let error = sheet("some.xlsx", &bytes[..length]).unwrap_err().to_string();

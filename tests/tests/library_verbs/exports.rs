@@ -153,6 +153,7 @@ fn a_faulty_table_is_refused_with_its_place() {
         (&format!("{head}\nA,K,1,1,1\nA,T,1,1,1\n"), &["row 3", "`T`"]),
         (&format!("{head}\nA,K,1,1,1\nA,K,1,1,1\n"), &["row 3", "one row for each"]),
         (&format!("{head}\nA,K,1,1,1\n"), &["pigment A", "`scattering`"]),
+        (&format!("{head}\nA,K,1,1,1\nA,K/S,1,1,1\n"), &["pigment A", "`scattering`"]),
         (&format!("{head}\nA,K,1,1\n"), &["row 2", "5 cells", "`4`"]),
         (&format!("{head}\nA,K,1,1,1\nA,S,2,2,2\n"), &["S = 1", "`0`", "--white"]),
         (&format!("{head}\n"), &["no pigment"]),

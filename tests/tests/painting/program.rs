@@ -6,6 +6,7 @@
 //! driver. A test cannot find the program of another package, so the child is this test binary. It
 //! runs one ignored test that calls the program.
 
+use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
@@ -695,4 +696,59 @@ fn without_a_driver_the_processor_paints_unless_a_device_is_asked_for() {
     let (painted, written) = painted;
     assert!(painted.contains("status 0") && painted.contains("on the processor"), "{painted}");
     assert!(written, "no picture");
+}
+
+/// A picture of black squares of `side` pixels, written row by row.
+fn black_picture(path: &Path, side: u32) {
+    let file = std::io::BufWriter::new(std::fs::File::create(path).unwrap());
+    let mut encoder = png::Encoder::new(file, side, side);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Sixteen);
+    encoder.set_compression(png::Compression::Fastest);
+    let mut writer = encoder.write_header().unwrap();
+    let mut rows = writer.stream_writer().unwrap();
+    let row = vec![0; 6 * side as usize];
+    for _ in 0..side {
+        rows.write_all(&row).unwrap();
+    }
+    rows.finish().unwrap();
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_picture_that_needs_more_memory_than_the_limit_is_refused_with_words() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = place(folder.path(), "painted.png");
+    for (name, side) in [("small.png", 64), ("large.png", 11_000)] {
+        let picture = place(folder.path(), name);
+        black_picture(Path::new(&picture), side);
+        let painter = program(&[
+            "paint",
+            "--from",
+            &picture,
+            "-o",
+            &output,
+            "--width-mm",
+            "20",
+            "--backend",
+            "cpu",
+        ]);
+        let mut limited = Command::new("sh");
+        limited.args(["-c", "ulimit -v 700000 && exec \"$@\"", "sh"]);
+        limited.arg(painter.get_program()).args(painter.get_args());
+        limited.envs(painter.get_envs().filter_map(|(name, value)| Some((name, value?))));
+        let found = output_of(limited);
+        match side {
+            64 => {
+                assert!(found.contains("status 0"), "{found}");
+                std::fs::remove_file(&output).unwrap();
+            }
+            _ => {
+                assert!(found.contains("status 2"), "{found}");
+                let words = "the picture needs `692` MB of memory, which the system does not give";
+                assert!(found.contains(words) && found.contains("large.png"), "{found}");
+                assert!(!Path::new(&output).exists(), "a file of a picture that was not read");
+            }
+        }
+    }
 }

@@ -14,6 +14,8 @@
 #![expect(clippy::print_stdout, reason = "with --nocapture you see the counts and the memory")]
 
 mod damage;
+mod input;
+mod seeds;
 mod table;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -22,6 +24,8 @@ use std::time::{Duration, Instant};
 
 use table::{Kind, READERS, Reader};
 
+/// Inputs for each reader in CI.
+const INPUTS: u64 = 10_000;
 /// Longest time for one input. Other programs may use the processor meanwhile.
 const LONGEST: Duration = Duration::from_secs(5);
 /// Most memory that the readers may add to what the test took at its start, in MB: used, and only asked for.
@@ -45,7 +49,7 @@ fn feed(kind: Kind) {
     let asked = asked.map(|text| text.parse().expect("IMPASTO_FUZZ is a number of inputs"));
     let started = Instant::now();
     for reader in READERS.iter().filter(|reader| reader.kind == kind) {
-        let count = asked.unwrap_or(kind.inputs());
+        let count = asked.unwrap_or(INPUTS);
         let refused = feed_reader(reader, count);
         assert!(refused > 0 || count < 100, "{}: no input was refused", reader.name);
         let [used, asked_for] = peaks_mb();

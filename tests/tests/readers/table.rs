@@ -4,24 +4,38 @@ use std::path::Path;
 
 use artmap::painted::Style;
 use artmap::passages::Marks;
-use calibrate::library::PigmentLibrary;
+use calibrate::curation::{self, LibraryFrame};
+use calibrate::library::{AmountKind, PigmentLibrary};
+use calibrate::measurement::Recipes;
 use calibrate::{FitRequest, ReadingOptions, Readings, Residuals};
+use documents::file::Outside;
+use documents::hint::Explain;
 use documents::request::request_from_json;
 use graphics::camera::CameraPath;
 use graphics::exr_picture::linear_picture;
-use graphics::mesh::Mesh;
+use graphics::mesh::ModelFile;
 use graphics::picture::Photograph;
-use image::ImageFormat;
-use maps::Book;
+use graphics::tones::ToneRamp;
 use maps::cube::{Cube, CubeOptions, CubeScale};
+use maps::truth::Truth;
+use maps::{Book, StoredMaps};
+use paint::document::Document;
 use paint::strokes::StrokeScript;
 use painterly::Regions;
 use painterly::guides::Guides;
+use session::LostSession;
 use session::brushes::BrushSet;
 use session::swatches::SwatchBook;
 use spectra::color_book::ColorBook;
+use spectra::optics::Surface;
 use spectra::{WavelengthList, lamp_from_bytes};
 use volumes::script::Script;
+
+use super::input::{Files, on_disk};
+use super::seeds::{
+    autosaves, fixtures, folder, library_tables, linear_pictures, made, maps_and_truth, models,
+    oils, palettes, pictures, scans, workbooks, zipped,
+};
 
 /// Kind of the files that a reader takes. One test feeds all readers of the same kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,21 +45,6 @@ pub(crate) enum Kind {
     Json,
     Binary,
 }
-
-impl Kind {
-    /// Inputs for each reader in CI.
-    pub(crate) fn inputs(self) -> u64 {
-        match self {
-            Self::Measurement | Self::Json => 4_000,
-            Self::Toml => 10_000,
-            // Pictures are unpacked.
-            Self::Binary => 1_500,
-        }
-    }
-}
-
-/// Names and bytes of files.
-type Files = Vec<(String, Vec<u8>)>;
 
 /// A reader of a file.
 pub(crate) struct Reader {
@@ -65,92 +64,60 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-/// Reads a file on the disk.
-fn on_disk(
-    name: &str,
-    bytes: &[u8],
-    read: impl Fn(&Path) -> Result<(), String>,
-) -> Result<(), String> {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join(name);
-    std::fs::write(&path, bytes).unwrap();
-    read(&path)
+fn frame() -> LibraryFrame {
+    LibraryFrame {
+        title: "a table".to_owned(),
+        licence: "CC0-1.0".to_owned(),
+        source: "a table".to_owned(),
+        amounts: AmountKind::Relative,
+        reference: None,
+        saunderson: Surface::NONE,
+    }
 }
 
-/// Files below the fixtures.
-fn fixtures(names: &[&str]) -> Files {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures");
-    names.iter().map(|name| file(&folder.join(name))).collect()
+fn read_scan(path: &Path) -> Result<(), String> {
+    let scale = match path.extension().is_some_and(|ending| ending == "hdr" || ending == "tif") {
+        true => CubeScale::White(200.0),
+        false => CubeScale::default(),
+    };
+    let cube = Cube::open_with(path, &CubeOptions { scale, ..CubeOptions::default() });
+    words(cube.map_err(|error| error.to_string())?.read_rows(0..1))
 }
 
-fn file(path: &Path) -> (String, Vec<u8>) {
-    let name = path.file_name().unwrap().to_str().unwrap().to_owned();
-    (name, std::fs::read(path).unwrap())
+/// Reads a model, which must be sound then, and not larger than its file.
+fn read_model(name: &str, bytes: &[u8]) -> Result<(), String> {
+    on_disk(name, bytes, |path| {
+        let file = ModelFile::open(path, Outside::Refused).map_err(|error| {
+            let message = error.to_string();
+            assert!(error.hint().is_some(), "{message}: no way out");
+            assert!(message.contains(name) || message.contains("a.mtl"), "{message}: no file");
+            message
+        })?;
+        file.mesh.check().unwrap();
+        let longest = file.mesh.positions.len().max(file.mesh.triangles.len());
+        // Two nodes show a mesh of the seeds twice.
+        assert!(longest <= 2 * bytes.len() + 60, "{longest} vertices or triangles");
+        Ok(())
+    })
 }
 
-/// All files of a folder below the fixtures but its README.
-fn folder(name: &str) -> Files {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(name);
-    let mut paths: Vec<_> =
-        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    paths.retain(|path| path.extension().is_none_or(|ending| ending != "md"));
-    paths.sort();
-    paths.iter().map(|path| file(path)).collect()
+fn read_maps(path: &Path) -> Result<(), String> {
+    if path.ends_with("truth.zarr") {
+        let truth = Truth::open(path).map_err(|error| error.to_string())?;
+        return words(truth.block(0));
+    }
+    let maps = StoredMaps::open(path).map_err(|error| error.to_string())?;
+    words(maps.read(0..1, 0..1))
 }
 
-fn made(name: &str, content: &str) -> (String, Vec<u8>) {
-    (name.to_owned(), content.as_bytes().to_vec())
-}
-
-/// The heading and some rows of the oils that ship.
-fn oils() -> Files {
-    let all = include_str!("../../../measurements/van-gogh-oils.csv");
-    let rows: Vec<&str> = all.lines().take(24).collect();
-    let table = "sample;film;backing;thickness_mm;Red (g);White (g);400;500;600;700\n\
-        a;paint;white;0,1;1;0;0,1;0,2;0,3;0,4\nb;none;white;;;;0,9;0,9;0,9;0,9\n";
-    vec![made("oils.csv", &rows.join("\n")), made("table.csv", table)]
-}
-
-fn pictures() -> Files {
-    let picture =
-        image::RgbImage::from_fn(9, 7, |x, y| image::Rgb([x as u8 * 20, y as u8 * 30, 99]));
-    [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Tiff, ImageFormat::WebP]
-        .into_iter()
-        .map(|format| {
-            let mut bytes = std::io::Cursor::new(Vec::new());
-            picture.write_to(&mut bytes, format).unwrap();
-            (format!("picture.{}", format.extensions_str()[0]), bytes.into_inner())
-        })
-        .collect()
-}
-
-fn linear_pictures() -> Files {
-    let mut picture = graphics::field::Field::filled(9, 7, [0.5_f32, 0.25, 0.125, 1.0]);
-    picture[(3, 4)] = [12.0, 0.0, 1.0, 1.0];
-    vec![("picture.exr".to_owned(), graphics::export::linear_exr(&picture, 0.1).unwrap())]
-}
-
-/// A scan of 3 lines, 4 samples and 4 bands in one file: the header, a line `DATA`, and the data.
-fn scans() -> Files {
-    let header = "ENVI\nlines = 3\nsamples = 4\nbands = 4\nheader offset = 0\ndata type = 1\ninterleave = bil\n\
-        byte order = 0\nwavelength units = nm\nwavelength = {400, 500, 600, 700}\nDATA\n";
-    let mut bytes = header.as_bytes().to_vec();
-    bytes.extend((0..48).map(|at| 40 + 3 * at));
-    vec![("scan.hdr".to_owned(), bytes)]
-}
-
-fn read_scan(name: &str, bytes: &[u8]) -> Result<(), String> {
-    let mark = b"DATA\n";
-    let at = bytes.windows(mark.len()).position(|window| window == mark);
-    let (header, data) =
-        at.map_or((bytes, &[][..]), |at| (&bytes[..at], &bytes[at + mark.len()..]));
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join(name);
-    std::fs::write(&path, header).unwrap();
-    std::fs::write(path.with_extension("bil"), data).unwrap();
-    let options = CubeOptions { scale: CubeScale::White(200.0), ..CubeOptions::default() };
-    let cube = Cube::open_with(&path, &options).map_err(|error| error.to_string())?;
-    words(cube.read_rows(0..1))
+fn read_autosave(path: &Path) -> Result<(), String> {
+    for lost in LostSession::all(path).map_err(|error| error.to_string())? {
+        lost.work().map_err(|error| error.to_string())?;
+        for file in lost.files() {
+            words(Document::open(&file))?;
+        }
+    }
+    Ok(())
 }
 
 /// All readers.
@@ -208,7 +175,40 @@ pub(crate) const READERS: &[Reader] = &[
         },
         read: |name, bytes| words(ColorBook::read(name, bytes, None)),
     },
-    Reader { name: "spectral scans", kind: Kind::Measurement, seeds: scans, read: read_scan },
+    Reader {
+        name: "palettes",
+        kind: Kind::Measurement,
+        seeds: palettes,
+        read: |name, bytes| words(ColorBook::read(name, bytes, None)),
+    },
+    Reader {
+        name: "workbooks",
+        kind: Kind::Measurement,
+        seeds: workbooks,
+        read: |name, bytes| words(spectra::instrument::read(name, &zipped(bytes), None)),
+    },
+    Reader {
+        name: "recipes",
+        kind: Kind::Measurement,
+        seeds: || {
+            let recipes = "sample,reading,film,backing,thickness_mm,Red (g),White (g)\n\
+                a,white,paint,white,0.1,1,0.5\na,black,paint,black,0.1,1,0.5\nb,,none,white,,,\n";
+            vec![made("recipes.csv", recipes)]
+        },
+        read: |name, bytes| words(Recipes::from_csv(name, bytes, None)),
+    },
+    Reader {
+        name: "tables of a library",
+        kind: Kind::Measurement,
+        seeds: library_tables,
+        read: |name, bytes| words(curation::from_csv(name, &text(bytes), frame())),
+    },
+    Reader {
+        name: "spectral scans",
+        kind: Kind::Measurement,
+        seeds: scans,
+        read: |name, bytes| on_disk(name, bytes, read_scan),
+    },
     Reader {
         name: "watercolour settings",
         kind: Kind::Toml,
@@ -338,15 +338,28 @@ pub(crate) const READERS: &[Reader] = &[
         read: |name, bytes| words(linear_picture(name, bytes)),
     },
     Reader {
-        name: "models",
+        name: "art maps",
         kind: Kind::Binary,
-        seeds: || {
-            let model = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\nvn 0 0 1\nvt 0 0.5\nf 1/1/1 2/1/1 3/1/1\nf 1 3 4\n";
-            let points = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
-                property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n\
-                0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
-            vec![made("model.obj", model), made("model.ply", points)]
-        },
-        read: |name, bytes| on_disk(name, bytes, |path| words(Mesh::open(path))),
+        seeds: || fixtures(&["formats/artmap.exr"]),
+        read: |name, bytes| words(artmap::map::file::read(name, bytes)),
+    },
+    Reader {
+        name: "tone ramps",
+        kind: Kind::Binary,
+        seeds: pictures,
+        read: |name, bytes| on_disk(name, bytes, |path| words(ToneRamp::open(path))),
+    },
+    Reader { name: "models", kind: Kind::Binary, seeds: models, read: read_model },
+    Reader {
+        name: "maps and truth",
+        kind: Kind::Binary,
+        seeds: maps_and_truth,
+        read: |name, bytes| on_disk(name, bytes, read_maps),
+    },
+    Reader {
+        name: "autosaves",
+        kind: Kind::Binary,
+        seeds: autosaves,
+        read: |name, bytes| on_disk(name, bytes, read_autosave),
     },
 ];

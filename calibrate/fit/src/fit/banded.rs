@@ -570,6 +570,22 @@ mod tests {
     }
 
     #[test]
+    fn an_unknown_that_is_held_has_the_row_and_column_of_the_identity() {
+        let (mut banded, mut dense) = example();
+        for held in [0, 2, 11, 22] {
+            banded.hold(held);
+            dense.row_mut(held).fill(0.0);
+            dense.column_mut(held).fill(0.0);
+            dense[(held, held)] = 1.0;
+        }
+        for column in 0..23_usize {
+            for row in column..(column + 5).min(23) {
+                assert_eq!(banded.at(row, column), dense[(row, column)], "({row}, {column})");
+            }
+        }
+    }
+
+    #[test]
     fn a_matrix_that_is_not_positive_definite_has_no_factor() {
         let mut banded = Banded::zeros(2, 1);
         banded.add(0, 0, 1.0);

@@ -13,6 +13,7 @@ use std::io::{BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use documents::file::check_expansion;
+use documents::foreign_message;
 use exr::block::chunk::TileCoordinates;
 use exr::block::lines::LineRef;
 use exr::block::reader::ChunksReader;
@@ -315,7 +316,10 @@ fn channels(meta: &MetaData) -> Option<(usize, Vec<(usize, f64)>)> {
 fn open_exr(path: &Path, options: &CubeOptions) -> Result<Opened, CubeError> {
     let fault = |error: exr::error::Error| match error {
         exr::error::Error::Io(reason) => CubeError::unpacking(path, reason),
-        other => CubeError::data(path, format!("cannot be unpacked: {other}"), "export it again"),
+        other => {
+            let problem = format!("cannot be unpacked: {}", foreign_message(&other));
+            CubeError::data(path, problem, "export it again")
+        }
     };
     let file = File::open(path).map_err(|reason| CubeError::reading(path, reason))?;
     let file_bytes = file.metadata().map_err(|reason| CubeError::reading(path, reason))?.len();

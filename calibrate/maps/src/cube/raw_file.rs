@@ -250,25 +250,56 @@ pub trait ReadAt: Debug + Send + Sync {
     fn read_exact_at(&self, buffer: &mut [u8], position: u64) -> io::Result<()>;
 }
 
-/// Size and time of a file when it was opened.
+/// Size and time of a file when it was opened, or of all files below a folder.
 #[cfg(feature = "files")]
 #[derive(Debug, Clone)]
 pub(crate) struct FileStamp {
     path: PathBuf,
-    size_and_time: (u64, Option<std::time::SystemTime>),
+    files: StampedFiles,
+}
+
+/// Number of some files, their bytes, and the time of the newest.
+#[cfg(feature = "files")]
+#[derive(Debug, Clone, Default, PartialEq)]
+struct StampedFiles {
+    count: u64,
+    bytes: u64,
+    newest: Option<std::time::SystemTime>,
+}
+
+#[cfg(feature = "files")]
+impl StampedFiles {
+    fn add(&mut self, path: &Path) -> io::Result<()> {
+        let about = std::fs::metadata(path)?;
+        if !about.is_dir() {
+            self.count += 1;
+            self.bytes += about.len();
+            self.newest = self.newest.max(about.modified().ok());
+            return Ok(());
+        }
+        for entry in std::fs::read_dir(path)? {
+            let entry = entry?;
+            // A link to a folder may lead back to this one.
+            if !entry.file_type()?.is_symlink() || entry.path().is_file() {
+                self.add(&entry.path())?;
+            }
+        }
+        Ok(())
+    }
 }
 
 #[cfg(feature = "files")]
 impl FileStamp {
     pub(crate) fn of(path: &Path) -> Result<Self, CubeError> {
-        let about = std::fs::metadata(path).map_err(|reason| CubeError::reading(path, reason))?;
-        Ok(Self { path: path.to_owned(), size_and_time: (about.len(), about.modified().ok()) })
+        let mut files = StampedFiles::default();
+        files.add(path).map_err(|reason| CubeError::reading(path, reason))?;
+        Ok(Self { path: path.to_owned(), files })
     }
 
-    /// Refuses a file that was changed or removed since.
+    /// Refuses a file, or a folder with a file, that was changed or removed since.
     pub(crate) fn check(&self) -> Result<(), CubeError> {
         let problem = match Self::of(&self.path) {
-            Ok(now) if now.size_and_time == self.size_and_time => return Ok(()),
+            Ok(now) if now.files == self.files => return Ok(()),
             Ok(_) => "was changed while it was read",
             Err(_) => "was removed while it was read",
         };

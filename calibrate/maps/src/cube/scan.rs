@@ -82,8 +82,8 @@ impl Cube {
     }
 
     /// Checks that the scan is what it was when you opened it: that neither size nor time of its header and of its data
-    /// changed. Call this after reading, before you use what you made of the values. We look at the metadata of a Zarr
-    /// array, not at each of its chunks.
+    /// changed, and that the chunks of a Zarr array are all there. Call this after reading, before you use what you
+    /// made of the values.
     ///
     /// # Errors
     /// [`CubeError::Data`] for a file that was changed or removed.

@@ -5,6 +5,7 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
+use documents::foreign_message;
 use pigment::Remark;
 use png::{BitDepth, ColorType, Decoder, DecodingError, Reader};
 use tiff::decoder::{Decoder as TiffDecoder, DecodingResult};
@@ -253,7 +254,7 @@ fn tiff_fault(path: &Path, error: TiffError) -> CubeError {
         ),
         other => CubeError::data(
             path,
-            format!("cannot be unpacked: {other}"),
+            format!("cannot be unpacked: {}", foreign_message(&other)),
             "save it without packing, or packed by deflate or LZW",
         ),
     }

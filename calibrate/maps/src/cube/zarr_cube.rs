@@ -8,6 +8,7 @@ use pigment::Remark;
 use rayon::prelude::*;
 use serde_json::Value;
 
+use super::raw_file::FileStamp;
 use crate::cube::error::CubeError;
 use crate::cube::options::CubeOptions;
 use crate::cube::window::{Conversion, Opened, Pixels, Source, Values, Window};
@@ -224,7 +225,7 @@ pub(crate) fn open(folder: &Path, options: &CubeOptions) -> Result<Opened, CubeE
         told,
         integration_time: None,
         remarks,
-        source: Box::new(ZarrSource::new(array, axes)),
+        source: Box::new(ZarrSource::new(array, axes)?),
     })
 }
 
@@ -242,11 +243,14 @@ struct ZarrSource {
     strides: Vec<usize>,
     /// Indices of the axes of rows, columns and bands in the array.
     axes: [usize; 3],
+    /// A chunk that was removed would be read as one that holds only the fill value.
+    stamp: FileStamp,
 }
 
 impl ZarrSource {
-    fn new(array: ZarrArray, axes: [usize; 3]) -> Self {
-        Self { strides: array.strides(), array, axes }
+    fn new(array: ZarrArray, axes: [usize; 3]) -> Result<Self, CubeError> {
+        let stamp = FileStamp::of(&array.folder)?;
+        Ok(Self { strides: array.strides(), array, axes, stamp })
     }
 
     /// Reads rows that all lie in one row of chunks.
@@ -324,6 +328,10 @@ impl Source for ZarrSource {
             (rest, start) = (more, end);
         }
         Ok(())
+    }
+
+    fn check_unchanged(&self) -> Result<(), CubeError> {
+        self.stamp.check()
     }
 
     fn scratch_bytes(&self, _: usize, columns: usize) -> usize {

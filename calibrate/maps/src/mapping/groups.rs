@@ -146,7 +146,7 @@ pub struct Column {
 ///
 /// # Errors
 /// [`MapError::Name`] for an unknown pigment, [`MapError::TwoGroups`] if a pigment is in two
-/// groups.
+/// groups, [`MapError::GroupName`] if a group cannot have its name.
 pub(crate) fn columns(
     paints: &Paints,
     named: &[PigmentGroup],
@@ -156,6 +156,9 @@ pub(crate) fn columns(
     let mut group_of: Vec<Option<usize>> = vec![None; paints.count()];
     let mut names: Vec<String> = Vec::new();
     for group in named {
+        if let Some(expected) = documents::name_violation(&group.name) {
+            return Err(MapError::GroupName { name: documents::excerpt(&group.name), expected });
+        }
         for pigment in &group.pigments {
             let name = find(pigment)?;
             // A pigment outside the palette takes no part.

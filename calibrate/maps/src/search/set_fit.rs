@@ -441,6 +441,29 @@ mod tests {
     }
 
     #[test]
+    fn exact_shares_cost_the_same_in_any_order_of_the_pigments() {
+        let normal = [[9.0, 2.0, 1.0, 0.0], [2.0, 5.0, -1.0, 0.0], [1.0, -1.0, 7.0, 0.0], [0.0; 4]];
+        let price = |order: [usize; 3], count| {
+            let mut turned = [[0.0; MOST_IN_SET]; MOST_IN_SET];
+            for (row, &from) in turned.iter_mut().zip(&order) {
+                for (entry, &of) in row.iter_mut().zip(&order) {
+                    *entry = normal[from][of];
+                }
+            }
+            Difference { normal: turned, ..Difference::default() }.exactness(count, 2.0)
+        };
+        // Shares of two pigments are equally likely from 0 to 1, with a variance of a twelfth.
+        let along = 9.0 + 5.0 - 2.0 * 2.0;
+        let expected = (1.0 + along / 12.0 / 2.0_f64).ln();
+        assert!((price([0, 1, 2], 2) - expected).abs() < 1e-9, "{}", price([0, 1, 2], 2));
+        assert_eq!(price([0, 1, 2], 1), 0.0);
+        let first = price([0, 1, 2], 3);
+        for order in [[0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
+            assert!((price(order, 3) - first).abs() < 1e-9, "{order:?}: {first}");
+        }
+    }
+
+    #[test]
     fn a_scan_with_small_errors_counts_more() {
         let scores = scores();
         let usual = scores.with_survey(&[0.5; 18], 1.0);

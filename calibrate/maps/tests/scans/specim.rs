@@ -296,6 +296,17 @@ fn header_and_data_are_read_wherever_they_lie() {
 }
 
 #[test]
+fn of_several_data_files_the_one_of_the_right_size_is_read() {
+    let files = [
+        file("scan", [0; 7]),
+        file("scan.hdr", header("bil", 12, "")),
+        file("scan.img", data("bil")),
+        file("scan.raw", [0; 9]),
+    ];
+    check(&Cube::of_files(&files, &by_200()).unwrap(), 1.0 / 200.0, "scan.img");
+}
+
+#[test]
 fn readings_are_among_the_files() {
     let small = header("bip", 12, "")
         .replace("samples = 7", "samples = 1")
@@ -531,6 +542,29 @@ fn a_group_of_several_cubes_needs_a_choice() {
 
 fn named(name: &str) -> CubeOptions {
     CubeOptions { variable: Some(name.to_owned()), ..CubeOptions::default() }
+}
+
+#[test]
+fn chunks_that_were_removed_or_changed_are_noticed() {
+    let folder = tempfile::tempdir().unwrap();
+    write_group(folder.path(), [0, 1, 2], None);
+    let chunk = folder.path().join("reflectance/c/1/0/0");
+    let bytes = std::fs::read(&chunk).unwrap();
+    for change in [None, Some(&bytes[..10])] {
+        std::fs::write(&chunk, &bytes).unwrap();
+        let cube = Cube::open(folder.path()).unwrap();
+        cube.check_unchanged().unwrap();
+        // Maps may lie beside the array.
+        std::fs::create_dir_all(folder.path().join("maps/c")).unwrap();
+        cube.check_unchanged().unwrap();
+        match change {
+            None => std::fs::remove_file(&chunk).unwrap(),
+            Some(bytes) => std::fs::write(&chunk, bytes).unwrap(),
+        }
+        let (found, hint) = told(&cube.check_unchanged().unwrap_err());
+        assert!(found.ends_with("reflectance: was changed while it was read"), "{found}");
+        assert!(hint.contains("read the scan again"), "{hint}");
+    }
 }
 
 #[test]

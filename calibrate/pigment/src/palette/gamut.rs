@@ -424,6 +424,16 @@ mod tests {
     }
 
     #[test]
+    fn primaries_of_srgb_stand_where_the_standard_has_them() {
+        // IEC 61966-2-1, table 1.
+        let wanted = [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06]];
+        for (found, wanted) in srgb_primaries(RgbSpace::Srgb.white()).iter().zip(wanted) {
+            let off = found.iter().zip(wanted).map(|(a, b): (&f64, f64)| (a - b).abs());
+            assert!(off.fold(0.0, f64::max) < 1e-3, "{found:?} {wanted:?}");
+        }
+    }
+
+    #[test]
     fn masstones_lie_where_the_library_measures_them_and_lines_end_at_them() {
         with_palette(&["Zinc White", "Vermilion", "Ultramarine"], |palette| {
             let wheel = color_wheel(palette);

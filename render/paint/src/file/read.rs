@@ -4,6 +4,7 @@
 use std::io::Cursor;
 
 use documents::file::{check_expansion, has_memory};
+use documents::foreign_message;
 use exr::block::UncompressedBlock;
 use exr::block::chunk::Chunk;
 use exr::meta::attribute::{AttributeValue, Compression, SampleType, Text};
@@ -54,7 +55,7 @@ pub fn read_within(file: &str, bytes: &[u8], limit: u64) -> Result<Document, Pai
 pub fn read_table(file: &str, bytes: &[u8]) -> Result<Option<SideTable>, PaintingFileError> {
     let reader =
         exr::block::read(Cursor::new(bytes), false).map_err(|error: exr::error::Error| {
-            PaintingFileError::Container { file: file.to_owned(), reason: error.to_string() }
+            PaintingFileError::Container { file: file.to_owned(), reason: foreign_message(&error) }
         })?;
     let Some(table) = table_bytes(reader.headers()) else { return Ok(None) };
     let (palette, brushes) = decode(&format!("{file}: palette"), table, MEMORY_LIMIT)?;
@@ -69,7 +70,7 @@ fn decode(
 ) -> Result<(Document, Vec<KeptBrush>), PaintingFileError> {
     let damaged = |error: exr::error::Error| PaintingFileError::Container {
         file: file.to_owned(),
-        reason: error.to_string(),
+        reason: foreign_message(&error),
     };
     let reader = exr::block::read(Cursor::new(bytes), false).map_err(damaged)?;
     let (header, library) = FileHeader::from_json(file, &json(file, reader.headers())?)?;

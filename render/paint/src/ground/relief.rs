@@ -1,11 +1,8 @@
 //! Reliefs of grounds: linen, panel, paper and wood from a seed, and the grey values of a picture.
 
-use std::io::Cursor;
-
 use graphics::field::Field;
 use graphics::noise::{Hills, random};
-use graphics::picture_formats::fault_of_coding;
-use image::{ImageReader, Limits};
+use graphics::picture_formats::small_picture;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -441,9 +438,6 @@ fn default_depth_mm() -> f64 {
     0.2
 }
 
-/// Greatest width and height of the picture, in pixels.
-const LARGEST: u32 = 16384;
-
 impl PictureRelief {
     /// Heights in mm of `width` x `height` cells, by bilinear interpolation.
     ///
@@ -475,17 +469,7 @@ impl PictureRelief {
         let rejected = |reason: String| GroundError::Picture { path: self.path.clone(), reason };
         let bytes =
             documents::file::disk::read(&self.path).map_err(|error| rejected(error.to_string()))?;
-        if let Some(fault) = fault_of_coding(&bytes) {
-            return Err(rejected(fault));
-        }
-        let mut reader = ImageReader::new(Cursor::new(bytes))
-            .with_guessed_format()
-            .map_err(|error| rejected(error.to_string()))?;
-        let mut limits = Limits::default();
-        limits.max_image_width = Some(LARGEST);
-        limits.max_image_height = Some(LARGEST);
-        reader.limits(limits);
-        let picture = reader.decode().map_err(|error| rejected(error.to_string()))?.into_luma16();
+        let picture = small_picture(&bytes).map_err(rejected)?.into_luma16();
         if picture.is_empty() {
             return Err(rejected("the picture has no pixels".to_owned()));
         }

@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 
 use documents::file::{FileError, NamedFileError};
 use documents::hint::Explain;
-use image::{ImageReader, Limits};
+use image::ImageReader;
 
 use crate::mesh::model::{LEAST_SIZE, MOST_SIZE, Material, Mesh, MeshFault, Texture, Triangle};
-use crate::picture_formats::{NAMES, fault_of_coding};
+use crate::picture_formats::{NAMES, small_picture};
 
 /// A part of a model as a file stores it.
 #[derive(Debug, Default)]
@@ -155,9 +155,6 @@ fn origin(positions: &[[f64; 3]], step: f64) -> Result<[f64; 3], MeshFault> {
     }))
 }
 
-/// Longest side of an accepted texture, in texels: the usual limit of graphics devices.
-const LONGEST: u32 = 16_384;
-
 /// Greatest number of texels of all textures of a model. These take 1 GB of memory.
 const MOST_TEXELS: u64 = 1 << 28;
 
@@ -188,17 +185,7 @@ impl Textures {
 impl Texture {
     /// Decodes a PNG, JPEG, TIFF or WebP image. If it cannot, the error is the decoder's reason.
     fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
-        if let Some(fault) = fault_of_coding(bytes) {
-            return Err(fault);
-        }
-        let mut reader = ImageReader::new(Cursor::new(bytes))
-            .with_guessed_format()
-            .map_err(|error| error.to_string())?;
-        let mut limits = Limits::default();
-        limits.max_image_width = Some(LONGEST);
-        limits.max_image_height = Some(LONGEST);
-        reader.limits(limits);
-        let picture = reader.decode().map_err(|error| error.to_string())?.into_rgba8();
+        let picture = small_picture(bytes)?.into_rgba8();
         let (width, height) = picture.dimensions();
         let texels = picture.pixels().map(|pixel| u32::from_le_bytes(pixel.0)).collect();
         Ok(Self { width, height, texels })

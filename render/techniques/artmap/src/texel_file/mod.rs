@@ -12,6 +12,7 @@ mod kind;
 use std::io::Cursor;
 
 use documents::file::check_expansion;
+use documents::foreign_message;
 use exr::block::UncompressedBlock;
 use exr::block::chunk::Chunk;
 use exr::block::reader::Reader;
@@ -62,7 +63,7 @@ fn layout(
     });
     let stored = stored.fold(0, u64::saturating_add);
     check_expansion(stored, file_bytes as u64)
-        .map_err(|error| origin.damaged(error.to_string()))?;
+        .map_err(|error| origin.damaged(foreign_message(&error)))?;
     Ok(layouts)
 }
 
@@ -129,7 +130,7 @@ impl<'a> Opened<'a> {
     /// [`TexelFileError::Container`] if they are not OpenEXR or truncated.
     pub(crate) fn new(origin: Origin<'a>, bytes: &'a [u8]) -> Result<Self, TexelFileError> {
         let reader = exr::block::read(Cursor::new(bytes), false)
-            .map_err(|error| origin.damaged(error.to_string()))?;
+            .map_err(|error| origin.damaged(foreign_message(&error)))?;
         Ok(Self { origin, reader, bytes: bytes.len() })
     }
 
@@ -154,7 +155,7 @@ impl<'a> Opened<'a> {
     /// or occur twice.
     pub(crate) fn planes(self, plans: Vec<PartPlan>) -> Result<Vec<PartPlanes>, TexelFileError> {
         let Self { origin, reader, bytes } = self;
-        let damaged = |error: exr::error::Error| origin.damaged(error.to_string());
+        let damaged = |error: exr::error::Error| origin.damaged(foreign_message(&error));
         let layouts = layout(origin, reader.headers(), plans, bytes)?;
         let mut parts: Vec<Filling> = layouts.into_iter().map(Filling::new).collect();
         let meta = reader.meta_data().clone();
@@ -228,7 +229,7 @@ fn block(
     parts: &[Filling],
 ) -> Result<UncompressedBlock, TexelFileError> {
     let block = UncompressedBlock::decompress_chunk(chunk, meta, false)
-        .map_err(|error| origin.damaged(error.to_string()))?;
+        .map_err(|error| origin.damaged(foreign_message(&error)))?;
     let PartLayout { plan, places } = &parts[block.index.layer].layout;
     let height = block.index.pixel_size.height();
     let wanted = plan.width * places.len() * height * size_of::<f32>();
