@@ -138,16 +138,22 @@ fn place_outside(xml: &[u8]) -> Option<&[u8]> {
         let name = name.rsplit(|byte| *byte == b':').next().unwrap_or_default();
         [&b"c"[..], b"row", b"f", b"dimension", b"mergeCell"].contains(&name)
     });
-    elements
-        .flat_map(|element| element.split(|byte| b"\"'".contains(byte)).skip(1).step_by(2))
-        .find(|value| {
-            value.split(|byte| *byte == b':').any(|place| {
+    let mut attributes = elements.flat_map(|element| {
+        let mut pieces = element.split(|byte| b"\"'".contains(byte));
+        std::iter::from_fn(move || Some((pieces.next()?, pieces.next()?)))
+    });
+    let found = attributes.find(|(name, value)| {
+        let name = name.trim_ascii_end().strip_suffix(b"=").unwrap_or_default().trim_ascii_end();
+        let last = name.rsplit(|byte| byte.is_ascii_whitespace() || *byte == b':').next();
+        let is_place = last.is_some_and(|last| last == b"r" || last == b"ref");
+        is_place
+            && value.split(|byte| *byte == b':').any(|place| {
                 let letters = place.iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
-                let digits = &place[letters..];
-                let is_place = !digits.is_empty() && digits.iter().all(u8::is_ascii_digit);
-                is_place && (letters > 3 || digits.len() > 7)
+                let digits = place[letters..].iter().take_while(|byte| byte.is_ascii_digit());
+                letters > 3 || digits.count() > 7
             })
-        })
+    });
+    found.map(|(_, value)| value)
 }
 
 /// Number of texts that cells share: those that the list holds, or as many as it announces, for which the reader
@@ -394,6 +400,7 @@ pub(super) mod tests {
             ("r=\"B184467440737095516163\"", "B184467440737095516163"),
             ("r='FFFFFFFB3'", "FFFFFFFB3"),
             ("s=\"1\" r=\"A1:B99999999\"", "A1:B99999999"),
+            ("t=\"inlineStr\"\nr = \"formats.org\"", "formats.org"),
         ] {
             let far = format!("<row r=\"1\"><c {found}><v>1</v></c></row>");
             let far = sheet("some.xlsx", &workbook(&[("A", &far)])).unwrap_err().to_string();
