@@ -224,4 +224,13 @@ fn what_is_no_film_on_two_cards_is_refused_with_a_way_out() {
     let without = whole.lines().filter(|line| !line.starts_with("card,none,black"));
     let without = without.collect::<Vec<_>>().join("\n");
     assert!(matches!(refused(&without), FilmError::NoPair { .. }));
+    // Both cards are white.
+    let card = whole.lines().find(|line| line.starts_with("card,none,white")).unwrap();
+    let card = card.replace("white", "black");
+    let alike = whole.lines().map(|line| match line.starts_with("card,none,black") {
+        true => card.as_str(),
+        false => line,
+    });
+    let alike = alike.collect::<Vec<_>>().join("\n");
+    assert!(matches!(refused(&alike), FilmError::NoPair { .. }));
 }

@@ -391,6 +391,17 @@ fn columns_stand_in_any_order_and_empty_amounts_are_none() {
 }
 
 #[test]
+fn a_pigment_in_none_of_the_chosen_swatches_leaves_amounts_and_shares() {
+    let table =
+        table("sample,Blue,Red,White,400,410\na,1,,3,0.5,0.5\nb,,1,1,0.4,0.4\nc,,,1,0.9,0.9\n");
+    let set = SwatchSet::from_table(&table).unwrap().retaining(|swatch| swatch.sample != "b");
+    assert_eq!(set.pigments, ["Blue", "White"]);
+    let shares: Vec<&[f64]> = set.swatches.iter().map(|swatch| &swatch.shares[..]).collect();
+    assert_eq!(shares, [[0.25, 0.75], [0.0, 1.0]]);
+    assert_eq!(set.swatches[0].amounts, [1.0, 3.0]);
+}
+
+#[test]
 fn repeated_readings_are_averaged_and_their_spread_kept() {
     let table = table("sample,replicate,W,400,410\na,1,1,0.50,0.60\na,2,1,0.52,0.62\n");
     let film = &SwatchSet::from_table(&table).unwrap().swatches[0].films[0];

@@ -243,6 +243,16 @@ fn a_grid_goes_through_regular_wavelengths_only() {
 }
 
 #[test]
+fn the_step_of_samples_is_the_median_of_their_distances() {
+    fn step(nm: &[f64]) -> f64 {
+        IrregularSpectrum::new(nm.to_vec(), vec![1.0; nm.len()]).unwrap().step_nm()
+    }
+    assert_eq!(step(&[400.0, 402.0, 412.0, 422.0, 462.0, 472.0]), 10.0);
+    assert_eq!(step(&[400.0, 405.0, 430.0]), 25.0);
+    assert_eq!(step(&[550.0]), 0.0);
+}
+
+#[test]
 fn samples_refuse_wavelengths_that_do_not_rise() {
     for nm in [[400.0, 390.0], [400.0, 400.0]] {
         let refused = IrregularSpectrum::new(nm.to_vec(), vec![1.0; 2]);
