@@ -122,8 +122,9 @@ def test_pigments_are_found_with_their_shares(
 ) -> None:
     pytest.importorskip("zarr", reason="zarr 3 needs Python 3.11")
     cube = im.Cube.open(scan[0])
-    # The scan is made of the library's own pigments.
-    survey = im.survey(cube, oils, model_error=0.05)
+    # The scan is made of the library's own pigments. With so small an error a masstone looks like none of them.
+    with pytest.warns(im.FindingWarning, match="off by a factor of 4"):
+        survey = im.survey(cube, oils, model_error=0.05)
     assert set(list(survey.palette)[:5]) == set(PIGMENTS), survey.palette
     maps = im.pigment_map(cube, oils, tmp_path / "maps.zarr", survey=survey)
     data = maps.to_xarray()
