@@ -111,8 +111,8 @@ fn cut(text: &str, most: usize, end: usize) -> Cow<'_, str> {
     Cow::Owned(format!("{start} [{} letters more] {rest}", letters - most))
 }
 
-/// The message of an error from the reader of a foreign format, in one line. Such readers quote what they do not
-/// understand, which a damaged file may make as long as itself: you get at most 300 letters of it.
+/// The message of an error of another crate, in one line. Such messages may quote a damaged file at any length, so
+/// we cut them to 300 letters.
 ///
 /// ```
 /// use documents::foreign_message;

@@ -141,14 +141,17 @@ const MOST_SMALL: u64 = 1 << 26;
 /// Longest side of [`small_picture`] in pixels: the usual limit of graphics devices.
 const LONGEST_SMALL: u32 = 1 << 14;
 
-/// Decodes a texture, a relief or another picture of at most 64 Mpixel and 16,384 pixels a side. This
-/// leaves its colour profile out. An error is the reason in words, without the file.
+/// Decodes a texture, a relief or another picture of at most 64 Mpixel and 16,384 pixels a side, as its
+/// samples are: we do not apply its colour profile.
 ///
 /// ```
 /// use graphics::picture_formats::small_picture;
 ///
 /// assert!(small_picture(b"no picture").is_err());
 /// ```
+///
+/// # Errors
+/// The reason in words. The caller adds the name of the file.
 pub fn small_picture(bytes: &[u8]) -> Result<DynamicImage, String> {
     if let Some(fault) = fault_of_coding(bytes) {
         return Err(fault);

@@ -130,8 +130,8 @@ pub(super) fn sheet(file: &str, bytes: &[u8]) -> Result<Sheet, InstrumentError> 
     Ok(Sheet { name, text, others: sheets.into_iter().map(|(name, _)| name).collect() })
 }
 
-/// The first place in the XML of a sheet that has too many letters or digits for a sheet. The reader of
-/// workbooks calculates its row and column without looking at their size.
+/// The first place of a cell, such as `B12`, with more letters or digits than a sheet has columns or rows. Row
+/// and column would overflow in the crate that reads workbooks.
 fn place_outside(xml: &[u8]) -> Option<&[u8]> {
     let elements = xml.split(|byte| *byte == b'<').filter(|element| {
         let name = element.split(|byte| b"/> \t\r\n".contains(byte)).next().unwrap_or_default();

@@ -45,8 +45,7 @@ fn files_below(folder: &Path, name: &str) -> Files {
 
 /// The main file of an input, and the others. A damaged path may be any text.
 pub(crate) fn parts(bytes: &[u8]) -> (&[u8], Files) {
-    let starts: Vec<usize> =
-        memmem(bytes, MARK.as_bytes()).map(|start| start + MARK.len()).collect();
+    let starts: Vec<usize> = marks(bytes).map(|start| start + MARK.len()).collect();
     let main = starts.first().map_or(bytes, |start| &bytes[..start - MARK.len()]);
     let ends = starts.iter().skip(1).map(|start| start - MARK.len()).chain([bytes.len()]);
     let others = starts.iter().zip(ends).filter_map(|(start, end)| {
@@ -57,9 +56,10 @@ pub(crate) fn parts(bytes: &[u8]) -> (&[u8], Files) {
     (main, others.collect())
 }
 
-fn memmem<'b>(bytes: &'b [u8], mark: &'b [u8]) -> impl Iterator<Item = usize> + 'b {
-    let starts = bytes.windows(mark.len()).enumerate();
-    starts.filter(move |(_, window)| *window == mark).map(|(start, _)| start)
+/// The places of all marks.
+fn marks(bytes: &[u8]) -> impl Iterator<Item = usize> {
+    let windows = bytes.windows(MARK.len()).enumerate();
+    windows.filter(|(_, window)| *window == MARK.as_bytes()).map(|(start, _)| start)
 }
 
 /// Whether a path stays below the folder of the test.

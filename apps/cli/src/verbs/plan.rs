@@ -265,7 +265,7 @@ pub(super) fn print_forecast(
     Ok(())
 }
 
-/// A share as a percentage with one digit, for columns of seven letters.
+/// A relative deviation in percent with one digit. Above 999 % the exact number says nothing.
 fn percent(value: f64) -> String {
     match 100.0 * value {
         large if large > 999.0 => ">999".to_owned(),

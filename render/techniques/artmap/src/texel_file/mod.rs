@@ -63,7 +63,7 @@ fn layout(
     });
     let stored = stored.fold(0, u64::saturating_add);
     check_expansion(stored, file_bytes as u64)
-        .map_err(|error| origin.damaged(foreign_message(&error)))?;
+        .map_err(|error| origin.damaged(error.to_string()))?;
     Ok(layouts)
 }
 
