@@ -103,7 +103,7 @@ fn a_spinner_is_drawn_in_a_terminal_and_cleared_again() {
     assert!(!quiet.contains("painting (") && !quiet.contains("preparing"), "{quiet}");
     let library =
         concat!(env!("CARGO_MANIFEST_DIR"), "/../../measurements/van-gogh-oils.pigments.json");
-    let mixing = seen(&format!("impasto quadrature '{library}' --mixtures 100000"));
+    let mixing = seen(&format!("impasto quadrature '{library}' --nodes 18"));
     let label = mixing.contains("wavelengths (") || mixing.contains(" comparing mixtures (");
     assert!(label, "{mixing}");
 }
