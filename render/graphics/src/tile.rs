@@ -105,6 +105,14 @@ impl TileSet {
         }
     }
 
+    /// Whether a tile under `rect` belongs to the set.
+    #[must_use]
+    pub fn meets(&self, rect: Rect) -> bool {
+        let mut tiles = Self::default();
+        tiles.insert(rect);
+        tiles.iter().any(|tile| self.tiles.contains(&tile))
+    }
+
     /// Adds one tile. Returns whether it was new.
     pub fn insert_tile(&mut self, tile: Tile) -> bool {
         self.tiles.insert(tile)

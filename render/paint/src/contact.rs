@@ -129,6 +129,11 @@ pub struct ExchangeRates {
     /// Share of the paint from before the stroke that bears the hair, in parts of 65536. This is
     /// less where the coat is thin.
     pub bearing: u32,
+    /// Share of the skin and of the body that the hair stirs into each other, relative to the smaller
+    /// of the skin and the part of the body that the hair reaches.
+    pub shear: u32,
+    /// Unused. Pads the uniforms of the shaders.
+    pub padding: [u32; 3],
 }
 
 /// The head of a brush over the canvas during one sub-step.

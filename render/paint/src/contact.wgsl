@@ -16,6 +16,10 @@ struct ExchangeRates {
     sink: u32,
     drag: u32,
     bearing: u32,
+    shear: u32,
+    padding: u32,
+    padding_b: u32,
+    padding_c: u32,
 }
 
 // Unpacks two 16-bit numbers in two's complement: low half, high half.

@@ -185,7 +185,10 @@ impl Document {
         for height in self.ground.height.values() {
             digest.update(height.to_le_bytes());
         }
-        for layer in self.dry.iter().map(|dry| &dry.paint).chain([&self.wet]) {
+        let layers = self.dry.iter().map(|dry| &dry.paint).chain([&self.wet]);
+        // A skin without paint leaves no trace, so that paintings without one keep their digest.
+        let films = layers.flat_map(|layer| [Some(layer), layer.painted_skin()]);
+        for layer in films.flatten() {
             for (pigments, vehicle) in layer.pigments.values().iter().zip(layer.vehicle.values()) {
                 for amount in pigments.iter().chain([vehicle]) {
                     digest.update(amount.to_le_bytes());

@@ -15,7 +15,7 @@ use spectra::optics::{Layer as Film, Surface};
 use crate::composite::composite_row;
 use crate::document::{Document, Lighting, Medium, Slots};
 use crate::ground::Ground;
-use crate::layer::{Layer, SLOTS};
+use crate::layer::{Cell, Layer, SLOTS};
 use crate::light::Light;
 use crate::optics::{
     Lamp, NODES, Scene, at_nodes, layer_optics, scene_surface, thickness_per_quantum,
@@ -157,7 +157,9 @@ fn lay_row(
     let dry = dry.map(|layer| (TopMaterial::Dry, layer));
     let wet = wet.map(|layer| (TopMaterial::Wet, layer));
     for (material, (layer, optics)) in dry.chain(wet).take(layers) {
-        composite_row(optics, layer.pigments.row(y, 0, layer.width()), internal);
+        for film in layer.single_films() {
+            composite_row(optics, film.pigments.row(y, 0, film.width()), internal);
+        }
         mark(layer, y, material, materials);
     }
 }
@@ -440,14 +442,12 @@ impl SpectralStack {
     }
 
     /// Measured reflectance (0..1) by wavelength of a column of paint, given the quanta of
-    /// each pigment in each layer, lowest first.
-    pub fn measured_reflectance(
-        &self,
-        pigments: impl IntoIterator<Item = [u32; SLOTS]>,
-    ) -> Vec<f64> {
+    /// each pigment in the body and the skin of each layer, lowest first.
+    pub fn measured_reflectance(&self, layers: impl IntoIterator<Item = [Cell; 2]>) -> Vec<f64> {
         let mut internal = self.ground.clone();
-        for (amounts, optics) in pigments.into_iter().zip(&self.optics) {
-            let amounts = amounts.map(f64::from);
+        let films = layers.into_iter().zip(&self.optics);
+        for (film, optics) in films.flat_map(|(films, optics)| films.map(|film| (film, optics))) {
+            let amounts = film.pigments.map(f64::from);
             if amounts == [0.0; SLOTS] {
                 continue;
             }
@@ -463,17 +463,20 @@ impl SpectralStack {
         internal.into_iter().map(|r| self.surface.measured_from_internal(r)).collect()
     }
 
-    /// Share of the ground, then of each layer, in what you see of a column of paint: sum 1.
+    /// Share of the ground, then of the body and the skin of each layer, in what you see of a column
+    /// of paint: sum 1.
     ///
     /// At each wavelength, a film hides a part of the contrast between a white and a black below
     /// it. This part is the film's share. All wavelengths count alike. We leave the rest to the
     /// films below.
-    pub fn seen(&self, pigments: impl IntoIterator<Item = [u32; SLOTS]>) -> Vec<f64> {
+    pub fn seen(&self, layers: impl IntoIterator<Item = [Cell; 2]>) -> Vec<f64> {
         let columns: Vec<[f64; SLOTS]> =
-            pigments.into_iter().map(|amounts| amounts.map(f64::from)).collect();
+            layers.into_iter().flatten().map(|film| film.pigments.map(f64::from)).collect();
+        let optics = self.optics.iter().flat_map(|optics| [optics, optics]);
+        let optics: Vec<&Optics> = optics.take(columns.len()).collect();
         let mut parts = vec![0.0; columns.len() + 1];
         let mut rest = vec![1.0; self.count()];
-        for (index, (amounts, optics)) in columns.iter().zip(&self.optics).enumerate().rev() {
+        for (index, (amounts, optics)) in columns.iter().zip(optics).enumerate().rev() {
             for (rest, optics) in rest.iter_mut().zip(optics) {
                 let [k, s] = [0, 1]
                     .map(|part| amounts.iter().zip(optics).map(|(a, o)| a * o[part]).sum::<f64>());
@@ -540,7 +543,7 @@ impl<'a> SpectralDocument<'a> {
     /// Measured reflectance (0..1) by wavelength of the cell in column `x` and row `y`.
     #[must_use]
     pub fn measured_reflectance(&self, x: usize, y: usize) -> Vec<f64> {
-        self.stack.measured_reflectance(self.layers.iter().map(|layer| layer.pigments[(x, y)]))
+        self.stack.measured_reflectance(self.films_at(x, y))
     }
 
     /// Paint that you see at the cell in column `x` and row `y`: each layer by how much it hides of
@@ -548,12 +551,13 @@ impl<'a> SpectralDocument<'a> {
     /// paint, by volume.
     #[must_use]
     pub fn seen(&self, x: usize, y: usize) -> SeenPaint {
-        let parts = self.stack.seen(self.layers.iter().map(|layer| layer.pigments[(x, y)]));
+        let parts = self.stack.seen(self.films_at(x, y));
         let mut pigments = vec![0.0; self.document.library.pigments.len()];
         let dry = self.document.dry.iter().map(|layer| &layer.slots);
         let slots = dry.chain([&self.document.slots]);
-        for ((layer, slots), part) in self.layers.iter().zip(slots).zip(&parts[1..]) {
-            let amounts = layer.pigments[(x, y)];
+        let films = self.films_at(x, y).zip(slots);
+        let films = films.flat_map(|(films, slots)| films.map(|film| (film.pigments, slots)));
+        for ((amounts, slots), part) in films.zip(&parts[1..]) {
             let all: f64 = amounts.iter().map(|&amount| f64::from(amount)).sum();
             for (amount, pigment) in amounts.iter().zip(slots) {
                 if let Some(pigment) = pigment
@@ -563,7 +567,14 @@ impl<'a> SpectralDocument<'a> {
                 }
             }
         }
-        SeenPaint { ground: parts[0], layers: parts[1..].to_vec(), pigments }
+        let layers = parts[1..].chunks(2).map(|films| films.iter().sum()).collect();
+        SeenPaint { ground: parts[0], layers, pigments }
+    }
+
+    /// Body and skin of each layer at the cell in column `x` and row `y`, lowest first.
+    fn films_at(&self, x: usize, y: usize) -> impl Iterator<Item = [Cell; 2]> {
+        let index = y * self.document.wet.width() + x;
+        self.layers.iter().map(move |layer| layer.films(index))
     }
 
     /// Measured reflectance of all cells as 32-bit planes, one per wavelength. We compute rows on

@@ -20,13 +20,25 @@ use super::heights::Heights;
 use super::measure::extent_mm;
 use super::report::{Curve, Panel};
 
-const PIGMENTS: [&str; 3] = ["Ultramarine", "Chrome Yellow", "Zinc White"];
+/// Pigments of the bench by slot.
+pub const PIGMENTS: [&str; 5] =
+    ["Ultramarine", "Chrome Yellow", "Zinc White", "Vermilion", "Lead White"];
 /// Slot of the blue.
 pub const BLUE_SLOT: usize = 0;
+/// Slot of the yellow.
+pub const YELLOW_SLOT: usize = 1;
+/// Slot of the red.
+pub const RED_SLOT: usize = 3;
+/// Slot of the white that hides best.
+pub const WHITE_SLOT: usize = 4;
 /// Recipe of pure blue paint.
 pub const BLUE: [f64; SLOTS] = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
 /// Recipe of pure yellow paint.
 pub const YELLOW: [f64; SLOTS] = [0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+/// Recipe of pure red paint.
+pub const RED: [f64; SLOTS] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
+/// Recipe of the white that hides best.
+pub const WHITE: [f64; SLOTS] = [0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
 /// Recipe of a light, hiding blue, in which relief shows.
 pub const BODY: [f64; SLOTS] = [1.0, 0.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0];
 
@@ -133,8 +145,16 @@ impl Easel {
     /// # Panics
     /// If the brush cannot hold that much.
     pub fn load(&mut self, brush: BrushId, recipe: &[f64; SLOTS], mm: f64) {
+        self.load_thinned(brush, recipe, 0.0, mm);
+    }
+
+    /// Washes a brush and loads it with `mm` of `recipe`, of which `vehicle` (0 to 1) is vehicle.
+    ///
+    /// # Panics
+    /// If the brush cannot hold that much.
+    pub fn load_thinned(&mut self, brush: BrushId, recipe: &[f64; SLOTS], vehicle: f64, mm: f64) {
         self.painting.wash(brush).expect("a clean brush");
-        self.painting.load(brush, recipe, 0.0, mm).expect("a loaded brush");
+        self.painting.load(brush, recipe, vehicle, mm).expect("a loaded brush");
     }
 
     /// Paints a stroke.

@@ -6,7 +6,7 @@ use paint::Sample;
 pub const PRESSURE: f64 = 0.475;
 /// Distance in mm from the left edge of a canvas to the start of a stroke.
 pub const START_MM: f64 = 10.0;
-/// Speed of the hand in mm/s.
+/// Speed of most hands in mm/s.
 const SPEED: f64 = 60.0;
 
 /// Attitude of the hand.
@@ -30,6 +30,12 @@ impl Hand {
     /// Samples of a pen that moves evenly through `points` (in mm), one every mm.
     #[must_use]
     pub fn along(self, points: &[(f64, f64)]) -> Vec<Sample> {
+        self.along_at(SPEED, points)
+    }
+
+    /// Samples like [`Hand::along`], of a hand that moves at `speed` mm/s.
+    #[must_use]
+    pub fn along_at(self, speed: f64, points: &[(f64, f64)]) -> Vec<Sample> {
         let mut samples = vec![self.at(0.0, points[0])];
         let mut seconds = 0.0;
         for pair in points.windows(2) {
@@ -39,9 +45,9 @@ impl Hand {
             for step in 1..=steps {
                 let share = step as f64 / steps as f64;
                 let place = (x0 + share * (x1 - x0), y0 + share * (y1 - y0));
-                samples.push(self.at(seconds + share * length / SPEED, place));
+                samples.push(self.at(seconds + share * length / speed, place));
             }
-            seconds += length / SPEED;
+            seconds += length / speed;
         }
         samples
     }

@@ -156,6 +156,46 @@ fn a_cell_filled_to_the_brim_comes_back() {
     }
 }
 
+/// A painting in which wet and dry paint have skins, one of them beyond what a float holds.
+fn skinned() -> Document {
+    let mut document = small();
+    let slot = document.slots.iter().position(Option::is_some).unwrap();
+    let mut skin = Cell { vehicle: 77, ..Cell::default() };
+    skin.pigments[slot] = (1 << 24) + 1;
+    let index = document.wet.vehicle.values().len() - 1;
+    let body = document.wet.cell(index);
+    document.wet.set_films(index, [body, skin]);
+    let thin = Cell { vehicle: 5, ..Cell::default() };
+    document.dry[1].paint.set_films(0, [Cell::default(), thin]);
+    document
+}
+
+#[test]
+fn skins_come_back_in_parts_of_their_own_and_only_their_files_have_version_2() {
+    let document = skinned();
+    let bytes = write(&document).unwrap();
+    let back = read("a.exr", &bytes).unwrap();
+    assert_eq!(back, document);
+    assert_ne!(back.digest_of_paint(), small().digest_of_paint());
+    let image = exr::prelude::read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .all_layers()
+        .all_attributes()
+        .from_buffered(Cursor::new(&bytes))
+        .unwrap();
+    let names: Vec<_> =
+        image.layer_data.iter().map(|l| l.attributes.layer_name.clone().unwrap()).collect();
+    let names: Vec<_> = names.iter().map(ToString::to_string).collect();
+    assert_eq!(names, ["base", "wet", "dry.000", "dry.001", "wet.skin", "dry.001.skin"]);
+    for (document, version) in [(document, 2), (small(), 1)] {
+        let bytes = write(&document).unwrap();
+        let wanted = format!("\"format\":\"impasto-painting\",\"version\":{version},");
+        assert!(String::from_utf8_lossy(&bytes).contains(&wanted), "{wanted}");
+    }
+}
+
 #[test]
 fn other_programs_find_parts_and_channels_in_millimetres() {
     let document = small();
@@ -264,8 +304,8 @@ fn a_file_that_is_no_painting_is_refused() {
 
 #[test]
 fn a_newer_version_is_told_so() {
-    let error = refused(|image| edit_json(image, |json| json["version"] = 2.into()));
-    let wanted = "a.exr: this program reads paintings up to version 1, found `2`";
+    let error = refused(|image| edit_json(image, |json| json["version"] = 3.into()));
+    let wanted = "a.exr: this program reads paintings up to version 2, found `3`";
     assert_eq!(error.to_string(), wanted);
     assert_eq!(
         error.hint().map(|hint| hint.to_string()).as_deref(),

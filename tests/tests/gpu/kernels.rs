@@ -117,14 +117,14 @@ fn shaders_that_count_faces_are_valid_and_bound_as_they_say() {
 fn a_canvas_beyond_the_device_is_told_with_both_sizes() {
     let Some(device) = crate::device() else { return };
     let limit = device.adapter().limits.binding_bytes;
-    // The pigments of this strip of cells, 32 bytes each, exceed the limit. The floor has 4 bytes
-    // per cell.
-    let cells = (limit / 32 + 1) as usize;
+    // The pigments of both films of this strip of cells, 64 bytes each, exceed the limit. The floor
+    // has 4 bytes per cell.
+    let cells = (limit / 64 + 1) as usize;
     if cells > 1 << 26 {
         return;
     }
     let error = PaintEngine::on_device(device, &Field::filled(cells, 1, 0)).unwrap_err();
-    let bytes = 32 * cells as u64;
+    let bytes = 64 * cells as u64;
     assert_eq!(error, DeviceError::TooLarge { what: "the canvas", bytes, limit });
     assert_eq!(error.hint().unwrap().to_string(), "paint on the processor: `backend = cpu`");
 }
@@ -173,7 +173,7 @@ fn the_program_names_the_adapter_that_would_be_used() {
     for (listed, adapter) in listed.iter().zip(&found) {
         let cells = listed["largest_canvas_cells"].as_u64().unwrap();
         let bytes = adapter.limits.binding_bytes;
-        assert!(cells * 32 <= bytes && (cells + 1) * 32 > bytes, "{cells} of {bytes}");
+        assert!(cells * 64 <= bytes && (cells + 1) * 64 > bytes, "{cells} of {bytes}");
     }
     let words = impasto(&["gpu"]);
     let first = words.out.lines().next().unwrap();

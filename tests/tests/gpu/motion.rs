@@ -10,6 +10,7 @@ use paint::contact::{Contact, ExchangeRates, Touch, Wicking};
 use paint::engine::PaintEngine;
 use paint::layer::{Cell, Layer};
 use paint::motion::MotionConstants;
+use paint::motion::skin::drying;
 use paint::{BrushId, UndoSlot};
 
 const SIZE: (usize, usize) = (83, 41);
@@ -19,7 +20,7 @@ fn reference(rng: &mut ChaCha8Rng, canvas: Amounts, head: Amounts) -> Reference 
     let floor = (0..SIZE.0 * SIZE.1).map(|_| rng.random_range(-(1 << 18)..1 << 18)).collect();
     Reference {
         floor: Field::from_values(SIZE.0, SIZE.1, floor),
-        wet: paint(rng, SIZE, canvas),
+        wet: films(rng, SIZE, canvas),
         brush: paint(rng, HEAD, head),
     }
 }
@@ -75,8 +76,8 @@ fn a_sub_step_is_that_of_the_processor_over_all_regimes() {
         for rect in rects().into_iter().chain(rects()) {
             // Some paint carries the hair, as if a stroke began here.
             for tile in TileSet::all(engine.bounds()).iter().filter(|_| rng.random_bool(0.3)) {
-                wanted.note_bed(tile).unwrap();
-                engine.note_bed(tile).unwrap();
+                wanted.note_bed(tile, &motion).unwrap();
+                engine.note_bed(tile, &motion).unwrap();
             }
             let contact = [contact_on(&mut rng, &start, rect)];
             wanted.apply_contacts(wanted_brush, &motion, &contact).unwrap();
@@ -99,7 +100,8 @@ fn other_constants_are_followed_too() {
             levelling_share: 8192,
             adhesion_quanta: 0,
             everywhere: 0,
-            padding: [0; 2],
+            skin_quanta: 1000,
+            padding: 0,
         },
         MotionConstants {
             push_share: 0,
@@ -108,7 +110,8 @@ fn other_constants_are_followed_too() {
             levelling_share: 0,
             adhesion_quanta: 65535,
             everywhere: 1,
-            padding: [0; 2],
+            skin_quanta: 0,
+            padding: 0,
         },
     ] {
         let mut rng = ChaCha8Rng::seed_from_u64(motion.push_share.into());
@@ -148,7 +151,9 @@ fn ten_thousand_sub_steps_keep_every_pigment() {
     };
     assert_eq!(end.totals(), start.totals());
     assert!(end.wet != start.wet && end.brush != start.brush, "nothing moved");
-    let most = end.wet.vehicle.values().iter().chain(end.wet.pigments.values().as_flattened());
+    let films = end.wet.single_films();
+    let most = films
+        .flat_map(|film| film.vehicle.values().iter().chain(film.pigments.values().as_flattened()));
     assert!(most.max() < Some(&(1 << 31)), "an amount below zero");
 }
 
@@ -216,6 +221,17 @@ pub(crate) fn paint(rng: &mut ChaCha8Rng, size: (usize, usize), amounts: Amounts
     layer
 }
 
+/// Paint like [`paint`], of which a part is the skin of every second cell.
+pub(crate) fn films(rng: &mut ChaCha8Rng, size: (usize, usize), amounts: Amounts) -> Layer {
+    let mut layer = paint(rng, size, amounts);
+    for i in (0..size.0 * size.1).step_by(2) {
+        let cell = layer.cell(i);
+        let skin = cell.share_of_65536(rng.random_range(0..65536));
+        layer.set_films(i, [cell.minus(&skin), skin]);
+    }
+    layer
+}
+
 /// A random contact over `rect`: heights near the tops of the paint, head cells that several canvas
 /// cells share, and an eighth of the canvas cells without a head cell. Half of the heads are
 /// stripes across the rows.
@@ -272,6 +288,8 @@ pub(crate) fn contact(
         sink: 8 * share(),
         drag: share() >> 8,
         bearing: share(),
+        shear: share(),
+        padding: [0; 3],
     };
     Contact { rect, touches, rates, wicking }
 }
@@ -282,7 +300,7 @@ fn canvas(seed: u64) -> Option<(PaintEngine, Field<i32>, Layer)> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let floor = (0..DRIED_SIZE.0 * DRIED_SIZE.1).map(|_| rng.random_range(-1000..1000)).collect();
     let floor = Field::from_values(DRIED_SIZE.0, DRIED_SIZE.1, floor);
-    let wet = paint(&mut rng, DRIED_SIZE, Amounts::Usual);
+    let wet = films(&mut rng, DRIED_SIZE, Amounts::Usual);
     let mut engine = PaintEngine::on_device(crate::device()?, &floor).unwrap();
     engine.set_wet(&wet).unwrap();
     Some((engine, floor, wet))
@@ -303,8 +321,11 @@ fn paint_dries_from_the_bottom_and_the_floor_rises() {
         let mut dried = Layer::empty(DRIED_SIZE.0, DRIED_SIZE.1);
         let mut left = dried.clone();
         for i in 0..DRIED_SIZE.0 * DRIED_SIZE.1 {
-            dried.set_cell(i, wet.cell(i).share_of_65536(share));
-            left.set_cell(i, wet.cell(i).minus(&dried.cell(i)));
+            let [body, skin] = wet.films(i);
+            let shares = drying(share, body.volume(), skin.volume());
+            let parts = [body.share_of_65536(shares[0]), skin.share_of_65536(shares[1])];
+            dried.set_films(i, parts);
+            left.set_films(i, [body.minus(&parts[0]), skin.minus(&parts[1])]);
         }
         engine.dry(share).unwrap();
         assert!(engine.wet().unwrap() == left, "wet paint after {share}");
@@ -332,7 +353,7 @@ fn a_dry_layer_comes_and_goes() {
 #[test]
 fn undo_then_redo_is_the_identity() {
     let Some((mut engine, _, before)) = canvas(6) else { return };
-    let after = paint(&mut ChaCha8Rng::seed_from_u64(7), DRIED_SIZE, Amounts::Usual);
+    let after = films(&mut ChaCha8Rng::seed_from_u64(7), DRIED_SIZE, Amounts::Usual);
     let tiles: Vec<_> = (0..DRIED_SIZE.1.div_ceil(TILE))
         .flat_map(|row| (0..DRIED_SIZE.0.div_ceil(TILE)).map(move |column| Tile { row, column }))
         .collect();

@@ -7,6 +7,7 @@
 
 mod studio;
 mod conservation;
+mod skin;
 mod undo;
 mod views;
 mod expected_behavior;

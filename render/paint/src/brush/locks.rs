@@ -150,6 +150,8 @@ struct Uptake {
     pick_up_mm: f64,
     /// Distance over which the difference between the colours of head and canvas falls to 1/e.
     mixing_mm: f64,
+    /// Distance over which the hair stirs 1 - 1/e of a skin into the body that it reaches.
+    shear_mm: f64,
     /// Distance over which the differences of paint along a hair fall to 1/e.
     wicking_mm: f64,
     /// Distance between two flows of paint over the head.
@@ -171,6 +173,7 @@ const HAIR: Uptake = Uptake {
     deposit_mm: 0.5,
     pick_up_mm: 5.0,
     mixing_mm: 9.0,
+    shear_mm: 600.0,
     wicking_mm: 1.5,
     wicking_every_mm: 0.4,
     turns: 4,
@@ -187,6 +190,7 @@ const BLADE: Uptake = Uptake {
     deposit_mm: 0.2,
     pick_up_mm: 0.2,
     mixing_mm: 0.7,
+    shear_mm: 20.0,
     wicking_mm: 0.1,
     wicking_every_mm: 0.2,
     turns: 1,
@@ -231,6 +235,8 @@ pub(super) fn rates(
         sink: quanta_from_mm(sink_mm, cell_mm),
         drag: (256.0 * uptake.drag) as u32,
         bearing: (65536.0 * uptake.bearing * (1.0 - f64::from(pressure))) as u32,
+        shear: share(cell_mm, uptake.shear_mm),
+        padding: [0; 3],
     }
 }
 

@@ -129,6 +129,9 @@ const EDGE_MM: f64 = 0.3;
 /// strength (chosen by the measured width of a blended edge).
 const MIX_MM: f64 = 1.0;
 
+/// Distance in mm over which a mop at full strength stirs a skin into the body below.
+const STIR_MM: f64 = 0.3;
+
 /// Distance in mm over which a mop fills at full strength. [`LAY_MM`] is the distance over which it
 /// lays the paint down again.
 const FILL_MM: f64 = 12.0;
@@ -207,6 +210,8 @@ fn blend(contact: &mut Contact, strength: f64, cell_mm: f64, paint_cell_area: f6
         sink: rates.sink,
         drag: (f64::from(rates.drag) * DRAG * strength) as u32,
         bearing: 0,
+        shear: share(cell_mm, STIR_MM / strength).min(32768),
+        padding: [0; 3],
     };
     contact.touches.iter_mut().for_each(|touch| touch.set_release(MOP_RELEASE));
 }

@@ -292,20 +292,37 @@ impl PaintEngine {
         }
     }
 
+    /// Whether a cell of the tile may have a skin. On the processor this is exact.
+    ///
+    /// # Panics
+    /// If the tile lies outside the canvas.
+    #[must_use]
+    pub fn may_have_skin(&self, tile: Tile) -> bool {
+        let rect = tile.rect(self.bounds());
+        match self {
+            Self::Cpu(paint) => paint.has_skin(rect),
+            Self::Gpu(paint) => paint.may_have_skin(rect),
+        }
+    }
+
     /// Records the surface of the paint in a tile. In the contacts that follow, loaded hair rides
     /// on this surface until you record the tile again. See [`bed`](crate::motion::bed). A tile
     /// that you never recorded does not bear hair.
     ///
+    /// The contacts that follow lay paint as a skin where the tile has wet paint now. Skins that it has
+    /// already are settled, see [`skin`](crate::motion::skin). This changes the paint, so save a tile that
+    /// [may have a skin](Self::may_have_skin) before.
+    ///
     /// # Panics
     /// If the tile lies outside the canvas.
-    pub fn note_bed(&mut self, tile: Tile) -> Result<(), DeviceError> {
+    pub fn note_bed(&mut self, tile: Tile, motion: &MotionConstants) -> Result<(), DeviceError> {
         let rect = tile.rect(self.bounds());
         match self {
             Self::Cpu(paint) => {
-                paint.note_bed(rect);
+                paint.note_bed(rect, motion);
                 Ok(())
             }
-            Self::Gpu(paint) => paint.note_bed(rect),
+            Self::Gpu(paint) => paint.note_bed(rect, motion),
         }
     }
 

@@ -170,10 +170,11 @@ impl Hiding {
 
     /// Measures the films of row `y` of `paint`.
     fn measure(&mut self, scene: &Scene, optics: &LayerOptics, paint: &Layer, y: usize) {
-        let row = paint.pigments.row(y, 0, paint.width());
         for backing in [1.0, 0.0] {
             self.internal.fill([backing; NODES]);
-            composite_row(optics, row, &mut self.internal);
+            for film in paint.single_films() {
+                composite_row(optics, film.pigments.row(y, 0, film.width()), &mut self.internal);
+            }
             color_row(scene, &self.internal, &mut self.colors);
             let seen = self.colors.iter().map(|color| luminance(&self.weights, color));
             if backing == 1.0 {

@@ -94,6 +94,11 @@ pub(super) fn dry_part(index: usize) -> String {
     format!("dry.{index:03}")
 }
 
+/// Part that holds the skin of the layer in `part`.
+pub(super) fn skin_part(part: &str) -> String {
+    format!("{part}.skin")
+}
+
 /// Part that holds the paint of brush `index` of a table.
 pub(super) fn brush_part(index: usize) -> String {
     format!("brush.{index:03}")

@@ -13,7 +13,8 @@ use serde_json::Value;
 
 use super::PaintingFileError;
 use super::channels::{
-    LAYER_CHANNELS, PigmentChannel, WET, brush_part, channels_of_slots, dry_part, slots_of_channels,
+    LAYER_CHANNELS, PigmentChannel, WET, brush_part, channels_of_slots, dry_part, skin_part,
+    slots_of_channels,
 };
 use crate::document::{Document, DryLayer, LayerId, Lighting, Medium, Slots};
 use crate::layer::layer_name_violation;
@@ -21,7 +22,10 @@ use crate::optics::Gloss;
 use crate::strokes::{BrushSpec, KeptBrush, MAX_NAMES, SurfaceId};
 
 const FORMAT: &str = "impasto-painting";
-const VERSION: u64 = 1;
+/// Version of files with a skin. Programs that only know version 1 refuse them.
+const VERSION: u64 = 2;
+/// Version of files without a skin.
+const VERSION_WITHOUT_SKIN: u64 = 1;
 
 /// Cell widths allowed, in mm. Within this range 32-bit floats in mm can represent quanta.
 const CELL_MM: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
@@ -89,10 +93,13 @@ pub(super) struct LayerHeader {
     pub(super) part: String,
     pub(super) opacity: f64,
     pub(super) pigments: Vec<PigmentChannel>,
+    /// Part with the paint of the layer's skin, if it has one. Its channels are those of `part`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) skin: Option<String>,
 }
 
 impl FileHeader {
-    /// All parts with paint: the layers, then the brushes.
+    /// All parts with paint: the layers, then the brushes, then the skins of the layers.
     pub(super) fn paints(&self) -> Vec<PaintHeader<'_>> {
         let canvas = (self.width, self.height);
         let layers = self.layers.iter().map(|layer| PaintHeader {
@@ -106,7 +113,11 @@ impl FileHeader {
             size: (paint.width, paint.height),
             pigments: &paint.pigments,
         });
-        layers.chain(brushes).collect()
+        let skins = self.layers.iter().filter_map(|layer| {
+            let part = layer.skin.as_deref()?;
+            Some(PaintHeader { part, size: canvas, pigments: &layer.pigments })
+        });
+        layers.chain(brushes).chain(skins).collect()
     }
 
     /// Description of `document` and of the `brushes` beside it.
@@ -115,9 +126,11 @@ impl FileHeader {
         brushes: &[KeptBrush],
     ) -> Result<Self, PaintingFileError> {
         let dry = document.dry.iter().enumerate();
-        let dry = dry.map(|(index, layer)| (dry_part(index), layer.opacity, &layer.slots));
-        let layers = std::iter::once((WET.to_owned(), 1.0, &document.slots)).chain(dry);
-        let layers = layers.map(|(part, opacity, slots)| {
+        let dry =
+            dry.map(|(index, layer)| (dry_part(index), layer.opacity, &layer.slots, &layer.paint));
+        let wet = (WET.to_owned(), 1.0, &document.slots, &document.wet);
+        let layers = std::iter::once(wet).chain(dry);
+        let layers = layers.map(|(part, opacity, slots, paint)| {
             let pigments = channels_of_slots(&document.library, slots, &LAYER_CHANNELS);
             let pigments = pigments.ok_or_else(|| {
                 let count = document.library.pigments.len();
@@ -125,8 +138,11 @@ impl FileHeader {
                     "part `{part}` has a pigment beyond the library's {count}"
                 ))
             })?;
-            Ok::<_, PaintingFileError>(LayerHeader { part, opacity, pigments })
+            let skin = paint.painted_skin().map(|_| skin_part(&part));
+            Ok::<_, PaintingFileError>(LayerHeader { part, opacity, pigments, skin })
         });
+        let layers = layers.collect::<Result<Vec<_>, _>>()?;
+        let skins = layers.iter().any(|layer| layer.skin.is_some());
         let brushes = brushes.iter().enumerate().map(|(index, brush)| {
             let paint = brush.paint.as_ref().map(|paint| BrushPaintHeader {
                 part: brush_part(index),
@@ -141,7 +157,7 @@ impl FileHeader {
         let library = serde_json::from_str(&document.library.to_json());
         let header = Self {
             format: FORMAT.to_owned(),
-            version: VERSION,
+            version: if skins { VERSION } else { VERSION_WITHOUT_SKIN },
             title: document.title.clone(),
             cell_mm: document.cell_mm,
             width: document.ground.height.width(),
@@ -153,7 +169,7 @@ impl FileHeader {
             },
             medium: document.medium.clone(),
             lighting: document.lighting.clone(),
-            layers: layers.collect::<Result<_, _>>()?,
+            layers,
             brushes: brushes.collect(),
             library: library.map_err(|error| PaintingFileError::unwritable(error.to_string()))?,
         };
@@ -185,7 +201,7 @@ impl FileHeader {
             let reason = format!("`format` must be \"{FORMAT}\", found `{}`", value["format"]);
             return Err(PaintingFileError::Format { file: file.to_owned(), reason });
         }
-        if value["version"] != VERSION {
+        if value["version"] != VERSION && value["version"] != VERSION_WITHOUT_SKIN {
             let found = value["version"].to_string();
             return Err(PaintingFileError::Version {
                 file: file.to_owned(),
@@ -226,6 +242,9 @@ impl FileHeader {
                 return Err(format!("opacity of `{part}` is 0 to 1000000, found `{found}`"));
             }
             layer.slots(library)?;
+            if let Some(skin) = layer.skin.as_ref().filter(|skin| **skin != skin_part(&wanted)) {
+                return Err(format!("the skin of `{wanted}` is its part `.skin`, found `{skin}`"));
+            }
         }
         if self.brushes.len() > MAX_NAMES {
             return Err(format!("at most {MAX_NAMES} brushes, found `{}`", self.brushes.len()));

@@ -1,4 +1,4 @@
-//! Painting files: OpenEXR, format `impasto-painting`, version 1. Callers usually use
+//! Painting files: OpenEXR, format `impasto-painting`, version 2. Callers usually use
 //! [`Document::open`](crate::document::Document::open) and
 //! [`Document::save`](crate::document::Document::save).
 //!
@@ -11,6 +11,9 @@
 //! | --- | --- |
 //! | `base` | `height` of the ground above the plane of the canvas |
 //! | `wet`, `dry.000`, `dry.001` .. (lowest first) | one channel per pigment: height of its paint. `vehicle`. `thickness`: their sum, for other programs, not read |
+//! | `wet.skin`, `dry.000.skin` .. | the same channels of the skin that lies over the paint of a layer, only of layers with one |
+//!
+//! A file without a skin has version 1, which earlier programs read too.
 //!
 //! The display window is the canvas. The data window of a layer is the rectangle that has
 //! paint. Attribute `impasto` of part `base` is JSON in ASCII: format and version, title,

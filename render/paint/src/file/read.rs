@@ -139,9 +139,29 @@ fn decode(
         LayerAttribute::from_part(file, &reader_parts[place], &layer.part, index)
     });
     let names = names.collect::<Result<Vec<_>, _>>()?;
-    let loads = paints.split_off(header.layers.len());
+    let mut loads = paints.split_off(header.layers.len());
+    let skins =
+        loads.split_off(header.brushes.iter().filter(|brush| brush.paint.is_some()).count());
+    let skinned = header.layers.iter().zip(&mut paints).filter(|(layer, _)| layer.skin.is_some());
+    for ((_, paint), skin) in skinned.zip(skins) {
+        add_skin(file, paint, skin)?;
+    }
     let brushes = brushes(&header.brushes, loads);
     Ok((document(file, header, library, ground, (names, paints))?, brushes))
+}
+
+/// Puts a skin on a layer.
+fn add_skin(file: &str, paint: &mut Layer, skin: Layer) -> Result<(), PaintingFileError> {
+    for index in 0..skin.vehicle.values().len() {
+        let both = u64::from(paint.cell(index).volume()) + u64::from(skin.cell(index).volume());
+        if both > u64::from(MAX_COLUMN) {
+            let [x, y] = [index % skin.width(), index / skin.width()];
+            let reason = format!("and its skin hold `{both}` quanta at x {x}, y {y}, too many");
+            return Err(PaintingFileError::container(file, format!("a layer {reason}")));
+        }
+    }
+    paint.skin = Some(Box::new(skin));
+    Ok(())
 }
 
 fn brushes(headers: &[BrushHeader], loads: Vec<Layer>) -> Vec<KeptBrush> {

@@ -142,8 +142,9 @@ fn check(document: &Document, brushes: &[KeptBrush]) -> Result<(), PaintingFileE
     let dry = dry.map(|(i, layer)| (dry_part(i), &layer.slots, &layer.paint));
     let wet = (WET.to_owned(), &document.slots, &document.wet);
     for (name, slots, paint) in std::iter::once(wet).chain(dry) {
-        let sizes = [paint.pigments.bounds(), paint.vehicle.bounds()];
-        if let Some(size) = sizes.into_iter().find(|size| *size != bounds) {
+        let mut sizes =
+            paint.single_films().flat_map(|film| [film.pigments.bounds(), film.vehicle.bounds()]);
+        if let Some(size) = sizes.find(|size| *size != bounds) {
             let width = size.width;
             let height = size.height;
             let canvas = format!("{} x {}", bounds.width, bounds.height);
@@ -216,9 +217,10 @@ pub(super) fn parts<'a>(
         channels: of_ground(inexact),
         source: Source::Ground(ground),
     };
-    let paints =
-        std::iter::once(&document.wet).chain(document.dry.iter().map(|layer| &layer.paint));
-    let paints = paints.chain(brushes.iter().filter_map(|brush| brush.paint.as_ref()));
+    let layers = std::iter::once(&document.wet).chain(document.dry.iter().map(|dry| &dry.paint));
+    let skins = layers.clone().filter_map(Layer::painted_skin);
+    let paints = layers.chain(brushes.iter().filter_map(|brush| brush.paint.as_ref()));
+    let paints = paints.chain(skins);
     let layers = header.paints().into_iter().zip(paints).map(|(layer, paint)| Part {
         name: layer.part.to_owned(),
         window: covered(paint),
@@ -228,7 +230,7 @@ pub(super) fn parts<'a>(
     std::iter::once(base).chain(layers).collect()
 }
 
-/// Smallest rectangle that contains all paint. If there is none, this is one cell, since a data
+/// Smallest rectangle that contains all paint of the body. If there is none, this is one cell, since a data
 /// window cannot be empty.
 fn covered(paint: &Layer) -> Rect {
     let width = paint.width();
@@ -286,7 +288,10 @@ impl Part<'_> {
                         None => paint.vehicle[(x, y)],
                     })
                 }
-                (Source::Paint(paint), _) => f64::from(paint.cell(y * paint.width() + x).volume()),
+                (Source::Paint(paint), _) => {
+                    let [body, _] = paint.films(y * paint.width() + x);
+                    f64::from(body.volume())
+                }
             };
             if residue { scale.residue(quanta) } else { scale.mm(quanta) }
         })

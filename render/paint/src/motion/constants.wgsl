@@ -7,6 +7,6 @@ struct MotionConstants {
     levelling_share: u32,
     adhesion_quanta: u32,
     everywhere: u32,
+    skin_quanta: u32,
     padding: u32,
-    padding_b: u32,
 }

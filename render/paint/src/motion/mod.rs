@@ -27,6 +27,9 @@
 //!    step 1: between the cell of the canvas as step 3 left it and the cell of the head as it was
 //!    at the start, for all cells at once. The transfers of several cells with one cell of the head
 //!    add up. As none takes more than half of its share, the head's amounts never fall below zero.
+//!    Then the hair stirs skin and body of the cell into each other, see [`skin`].
+//!
+//! Both films of a column move as one: they have one velocity, and the same shares of both leave.
 //!
 //! A cell that a [mask](crate::mask) covers is never in contact, and counts as crowded: its paint
 //! neither moves nor gets more.
@@ -37,6 +40,7 @@
 pub mod bed;
 pub mod press;
 pub mod advect;
+pub mod skin;
 pub mod transfer;
 pub mod wick;
 
@@ -64,8 +68,11 @@ pub struct MotionConstants {
     /// 0 if paint moves in contact with the head and next to it only. 1 if it moves everywhere, as
     /// after a stroke.
     pub everywhere: u32,
+    /// Height in quanta of the skin that stays apart from the body when a stroke begins. See
+    /// [`skin`].
+    pub skin_quanta: u32,
     /// Unused. Pads the uniforms of the shaders.
-    pub padding: [u32; 2],
+    pub padding: u32,
 }
 
 /// Flow under the head: mm2 of paint that leaves under a pressure of 1 mm of paint, for each mm
@@ -94,7 +101,8 @@ impl MotionConstants {
             levelling_share: parts(1.0 / 16.0),
             adhesion_quanta: quanta_from_mm(ADHESION_MM, cell_mm).min(65535),
             everywhere: 0,
-            padding: [0; 2],
+            skin_quanta: quanta_from_mm(skin::SKIN_MM, cell_mm),
+            padding: 0,
         }
     }
 

@@ -20,15 +20,15 @@ use graphics::tile::Rect;
 pub struct Exchange {
     /// Share of the head's cell that goes to the canvas.
     pub down: u32,
-    /// Share of the canvas's cell that goes to the head.
-    pub up: u32,
+    /// Shares of the canvas's body and of its skin that go to the head.
+    pub up: [u32; 2],
 }
 
 /// Computes the transfer of one sub-step.
 ///
 /// `penetration` (nothing moves at [`NO_CONTACT`](super::press::NO_CONTACT)) and `coat` are the
-/// values at the start of the sub-step, in quanta. The volumes are the volumes of the two cells
-/// now, in quanta. `leaving` is the velocity of the head over the edge of the canvas, in 1/256 cell
+/// values at the start of the sub-step, in quanta. The volumes are those of body and skin of the
+/// canvas's cell and of the head's cell now, in quanta. The head takes from the skin first. `leaving` is the velocity of the head over the edge of the canvas, in 1/256 cell
 /// a sub-step. Paint that would leave the canvas at half of this velocity goes onto the head.
 #[inline(always)]
 #[must_use]
@@ -37,10 +37,11 @@ pub fn exchange(
     touch: Touch,
     penetration: i32,
     coat: u32,
-    canvas_volume: u32,
+    [body, skin]: [u32; 2],
     brush_volume: u32,
     leaving: u32,
 ) -> Exchange {
+    let canvas_volume = body + skin;
     // Where there is no contact, no part of the coat touches.
     let penetration = penetration.max(-(coat as i32));
     let canvas = canvas_volume.min(penetration.max(0) as u32);
@@ -58,9 +59,11 @@ pub fn exchange(
     let down = share_of_256(laid + mixed, weight).min(brush / 2);
     let up = share_of_256(taken + mixed, weight) + share_of_256(canvas, leaving / 2);
     let most = if rates.mixing == 0 { canvas } else { canvas / 2 };
+    let up = up.min(most).min(room);
+    let from_skin = up.min(skin);
     Exchange {
         down: ratio_of_65536(down, brush_volume),
-        up: ratio_of_65536(up.min(most).min(room), canvas_volume),
+        up: [ratio_of_65536(up - from_skin, body), ratio_of_65536(from_skin, skin)],
     }
 }
 
@@ -91,9 +94,9 @@ mod tests {
         let mut brush = 50_000_000_u32;
         for _ in 0..60 {
             let Exchange { down, up } =
-                exchange(rates, TOUCH, canvas as i32, coat, canvas, brush, 0);
+                exchange(rates, TOUCH, canvas as i32, coat, [canvas, 0], brush, 0);
             let laid = share_of_65536(brush, down);
-            let taken = share_of_65536(canvas, up);
+            let taken = share_of_65536(canvas, up[0]);
             (canvas, brush) = (canvas - taken + laid, brush - laid + taken);
         }
         (canvas, i64::from(brush) - 50_000_000)
@@ -121,9 +124,9 @@ mod tests {
     fn both_sides_mix_in_equal_amounts() {
         let rates = ExchangeRates { mixing: 6000, ..ExchangeRates::default() };
         for (canvas, brush) in [(400_000, 3_000_000), (400_000, 500_000), (900_000, 70_000)] {
-            let found = exchange(&rates, TOUCH, canvas as i32, canvas, canvas, brush, 0);
+            let found = exchange(&rates, TOUCH, canvas as i32, canvas, [canvas, 0], brush, 0);
             let moved = share_of_65536(canvas.min(brush), 6000);
-            for (whole, share) in [(brush, found.down), (canvas, found.up)] {
+            for (whole, share) in [(brush, found.down), (canvas, found.up[0])] {
                 let part = share_of_65536(whole, share);
                 // A share is rounded down to 1/65536 of the whole.
                 let near = moved.abs_diff(part) <= whole / 65536 + moved / 32768 + 1;
@@ -133,15 +136,32 @@ mod tests {
     }
 
     #[test]
+    fn a_head_takes_the_skin_first() {
+        let rates = ExchangeRates { pick_up: 65536, ..ExchangeRates::default() };
+        let taken = |body: u32, skin: u32| {
+            let found = exchange(&rates, TOUCH, 500_000, 0, [body, skin], 0, 0);
+            [share_of_65536(body, found.up[0]), share_of_65536(skin, found.up[1])]
+        };
+        let [below, above] = taken(900_000, 700_000);
+        assert!(below == 0 && above.abs_diff(500_000) < 100, "{below} {above}");
+        let [below, above] = taken(900_000, 200_000);
+        assert!(below.abs_diff(300_000) < 100, "{below}");
+        assert!(above.abs_diff(200_000) < 100, "{above}");
+    }
+
+    #[test]
     fn a_full_head_takes_no_more() {
         let rates = ExchangeRates { pick_up: 65536, ..ExchangeRates::default() };
         let shared = Touch { weights: 256 | 3 << 16, ..TOUCH };
         let canvas = 80_000_000;
         let room = 30_000_000;
-        assert_eq!(exchange(&rates, shared, canvas as i32, 0, canvas, MAX_COLUMN, 256).up, 0);
+        assert_eq!(
+            exchange(&rates, shared, canvas as i32, 0, [canvas, 0], MAX_COLUMN, 256).up,
+            [0; 2]
+        );
         let taken = share_of_65536(
             canvas,
-            exchange(&rates, shared, canvas as i32, 0, canvas, MAX_COLUMN - room, 256).up,
+            exchange(&rates, shared, canvas as i32, 0, [canvas, 0], MAX_COLUMN - room, 256).up[0],
         );
         assert!(taken <= room / 3 && taken + 10_000 > room / 3, "{taken} of a third of {room}");
     }

@@ -1,9 +1,10 @@
 // Transfer of paint between canvas and head. This is the twin of transfer.rs.
 
 struct Exchange {
-    // Shares of the head's and of the canvas's whole cell, in parts of 65536.
+    // Shares of the head's cell and of the canvas's body and skin, in parts of 65536.
     down: u32,
-    up: u32,
+    up_body: u32,
+    up_skin: u32,
 }
 
 fn exchange(
@@ -11,11 +12,12 @@ fn exchange(
     touch: Touch,
     penetration: i32,
     coat_quanta: u32,
-    canvas_volume: u32,
+    body: u32,
+    skin: u32,
     brush_volume: u32,
     leaving: u32,
 ) -> Exchange {
-    let canvas = min(canvas_volume, u32(max(penetration, 0)));
+    let canvas = min(body + skin, u32(max(penetration, 0)));
     let sharers = max(touch_sharers(touch), 1u);
     let brush = brush_volume / sharers;
     let room = (MAX_COLUMN - min(brush_volume, MAX_COLUMN)) / sharers;
@@ -30,9 +32,12 @@ fn exchange(
     let down = min(share_of_256(laid + mixed, weight), brush / 2u);
     let up = share_of_256(taken + mixed, weight) + share_of_256(canvas, leaving / 2u);
     let most = select(canvas / 2u, canvas, rates.mixing == 0u);
+    let taken_all = min(min(up, most), room);
+    let from_skin = min(taken_all, skin);
     return Exchange(
         ratio_of_65536(down, brush_volume),
-        ratio_of_65536(min(min(up, most), room), canvas_volume),
+        ratio_of_65536(taken_all - from_skin, body),
+        ratio_of_65536(from_skin, skin),
     );
 }
 

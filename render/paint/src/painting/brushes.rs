@@ -539,7 +539,7 @@ impl Painting {
                     let x = rect.x + index % rect.width;
                     let y = rect.y + index / rect.width;
                     if mask.covers(y * bounds.width + x) {
-                        left.set_cell(index, before.cell(index));
+                        left.set_films(index, before.films(index));
                     }
                 }
             }

@@ -241,12 +241,22 @@ impl OpenStroke {
             let noted = &mut self.noted;
             let clean = &mut self.clean;
             let as_tool = self.stroke.tool;
+            let settled = &mut TileSet::default();
             let (result, ()) = rayon::join(
                 || {
                     for contact in touching.clone() {
                         let reach = contact.rect.grown(2, bounds);
                         history.save_tiles(engine, reach)?;
-                        note_bed(engine, noted, contact.rect.grown(BLOCK, bounds))?;
+                        let around = contact.rect.grown(BLOCK, bounds);
+                        for tile in tiles_of(around) {
+                            if noted.insert_tile(tile) {
+                                if engine.may_have_skin(tile) {
+                                    history.save_tiles(engine, tile.rect(bounds))?;
+                                    settled.insert_tile(tile);
+                                }
+                                engine.note_bed(tile, &motion)?;
+                            }
+                        }
                     }
                     engine.apply_contacts(tool.id, &motion, now)?;
                     clean.as_mut().map_or(Ok(()), |clean| clean.painted(engine, now.len()))
@@ -257,6 +267,9 @@ impl OpenStroke {
                     }
                 },
             );
+            for tile in settled.iter() {
+                painting.views.mark_wet_tile(tile);
+            }
             for contact in touching {
                 painting.views.mark_wet(contact.rect.grown(2, bounds));
                 self.touched.insert(contact.rect);
@@ -372,16 +385,11 @@ impl OpenStroke {
     }
 }
 
-/// Notes the surface of the tiles under `rect` that are not yet `noted`.
-fn note_bed(engine: &mut PaintEngine, noted: &mut TileSet, rect: Rect) -> Result<(), DeviceError> {
+/// The tiles under `rect`.
+fn tiles_of(rect: Rect) -> Vec<Tile> {
     let mut tiles = TileSet::default();
     tiles.insert(rect);
-    for tile in tiles.iter() {
-        if noted.insert_tile(tile) {
-            engine.note_bed(tile)?;
-        }
-    }
-    Ok(())
+    tiles.iter().collect()
 }
 
 /// Most sub-steps that go to the backend together: enough to hide the cost of a call.

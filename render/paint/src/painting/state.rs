@@ -420,8 +420,8 @@ impl Painting {
         let cells = rect.width * rect.height;
         let mut mean = vec![0.0; stack.count()];
         for index in 0..cells {
-            let pigments = layers.iter().map(|layer| layer.pigments.values()[index]);
-            for (mean, one) in mean.iter_mut().zip(stack.measured_reflectance(pigments)) {
+            let films = layers.iter().map(|layer| layer.films(index));
+            for (mean, one) in mean.iter_mut().zip(stack.measured_reflectance(films)) {
                 *mean += one / cells as f64;
             }
         }

@@ -2,6 +2,8 @@
 //! wall covered in pulls, two heaps mixed on the palette, outlines and where a mark lies under the
 //! pen, and films over load, pressure and cell size.
 
+mod contrasts;
+mod ends;
 mod relief;
 
 use std::f64::consts::TAU;
@@ -40,6 +42,14 @@ pub const CASES: &[Case] = &[
     ("edge", edge),
     ("weave", weave),
     ("fill", fill),
+    ("alla-prima", contrasts::alla_prima),
+    ("bands", contrasts::bands),
+    ("rims", contrasts::rims),
+    ("glaze", contrasts::glaze),
+    ("ends", ends::ends),
+    ("ripples", ends::ripples),
+    ("run-out", ends::run_out),
+    ("fan", ends::fan),
 ];
 
 /// Paint at the edge of the canvas: the highest cell near the edge relative to the film, and the
@@ -198,7 +208,8 @@ fn mix(bench: &Bench, shape: HeadShape, size_mm: f64) -> (Vec<Figure>, Vec<Panel
             format!("{tool}: cells below a fifth of their median"),
             100.0 * pits(&heights, inside),
             "%",
-        ),
+        )
+        .at_most(0.1),
         Figure::new(format!("{tool}: cells thinner than 0.05 mm"), bare, "%"),
         Figure::new(format!("{tool}: mean height"), mean(&film), "mm"),
         Figure::new(format!("{tool}: highest over mean"), highest / mean(&film), ""),

@@ -5,7 +5,7 @@
 use std::ops::Range;
 
 use paint::ground::GroundKind;
-use paint::layer::Layer;
+use paint::layer::{Layer, SLOTS};
 use paint::strokes::{Action, StrokeTool};
 use paint::{BrushId, HeadShape};
 
@@ -289,7 +289,7 @@ const BANDS_MM: [f64; 3] = [20.0, 38.0, 56.0];
 const BAND_MM: f64 = 8.0;
 
 /// Share of blue in all paint of a layer.
-fn share_of_blue<'a>(cells: impl Iterator<Item = &'a [u32; 8]>) -> f64 {
+fn share_of_blue(cells: impl Iterator<Item = [u32; SLOTS]>) -> f64 {
     let mut blue = 0.0;
     let mut all = 0.0;
     for pigments in cells {
@@ -318,11 +318,11 @@ pub(super) fn wet_in_wet(bench: &Bench) -> CaseReport {
         stroke.extend(&rest[..count]).expect("samples of a pen");
         rest = &rest[count..];
         stroke.advance(&mut easel.painting, usize::MAX).expect("painted");
-        on_brush.push(share_of_blue(easel.on_brush(brush).pigments.values().iter()));
+        on_brush.push(share_of_blue(easel.on_brush(brush).pigments.values().iter().copied()));
     }
     stroke.extend(rest).expect("samples of a pen");
     stroke.finish(&mut easel.painting).expect("painted");
-    on_brush.push(share_of_blue(easel.on_brush(brush).pigments.values().iter()));
+    on_brush.push(share_of_blue(easel.on_brush(brush).pigments.values().iter().copied()));
     let wet: Layer = easel.wet();
     let heights = easel.heights();
     let across = heights.columns();
@@ -331,7 +331,7 @@ pub(super) fn wet_in_wet(bench: &Bench) -> CaseReport {
         let columns = heights.columns_in(left + BAND_MM + 3.0..left + BAND_MM + 9.0);
         let rows = heights.rows_in(9.0..15.0);
         let cells = rows.flat_map(|y| columns.clone().map(move |x| y * across + x));
-        share_of_blue(cells.map(|index| &wet.pigments.values()[index]))
+        share_of_blue(cells.map(|index| wet.cell(index).pigments))
     });
     let after = easel.quanta(&[brush]);
     let lost: i64 = before.iter().zip(after).map(|(before, after)| (before - after).abs()).sum();

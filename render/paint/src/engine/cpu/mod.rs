@@ -2,7 +2,7 @@
 //!
 //! The result does not depend on the number of threads. This takes 44 bytes of memory per cell of
 //! the canvas: 36 for wet paint, 4 for its volume, 4 for the floor. The system takes the first 40
-//! only where there was paint. The ground takes 4 more once you dry paint. Each view that you
+//! only where there was paint. Where wet paint has a skin, it takes 40 more. The ground takes 4 more once you dry paint. Each view that you
 //! render takes 4, and 32 for each of its cells in tiles with dry paint. A dry layer takes 36 bytes
 //! for each cell of its painted tiles.
 
@@ -27,6 +27,7 @@ use crate::engine::{BrushId, UndoSlot, View};
 use crate::layer::Layer;
 use crate::mask::Mask;
 use crate::motion::MotionConstants;
+use crate::motion::skin::{drying, settling};
 use crate::optics::Scene;
 use columns::{Columns, HeadPaint, SavedTile, SparseLayer};
 use penetration::{Bed, Below};
@@ -125,8 +126,26 @@ impl CpuPaint {
         self.wet.put((rect.x, rect.y), paint);
     }
 
-    pub(crate) fn note_bed(&mut self, rect: Rect) {
-        self.bed.note(rect, &self.floor, &self.wet);
+    pub(crate) fn has_skin(&self, rect: Rect) -> bool {
+        self.wet.has_skin(rect)
+    }
+
+    pub(crate) fn note_bed(&mut self, rect: Rect, motion: &MotionConstants) {
+        let bounds = self.bounds();
+        if self.bed.note(rect, &self.floor, &self.wet) {
+            self.wet.begin_skin();
+        }
+        if !self.wet.has_skin(rect) {
+            return;
+        }
+        for index in 0..rect.width * rect.height {
+            let at = canvas_index(rect, index, bounds);
+            if self.wet.skin_volume().is_some_and(|volume| volume[at] > 0) {
+                let [body, skin] = self.wet.films(at);
+                let joined = skin.share_of_65536(settling(&body, &skin, motion.skin_quanta));
+                self.wet.set_films(at, [body.plus(&joined), skin.minus(&joined)]);
+            }
+        }
     }
 
     pub(crate) fn wet_tiles(&self) -> TileSet {
@@ -141,10 +160,11 @@ impl CpuPaint {
             let mut part = Layer::empty(rect.width, rect.height);
             for index in 0..rect.width * rect.height {
                 let at = canvas_index(rect, index, bounds);
-                let cell = self.wet.cell(at);
-                let dried = cell.share_of_65536(share);
-                part.set_cell(index, dried);
-                self.wet.set_cell(at, cell.minus(&dried));
+                let [body, skin] = self.wet.films(at);
+                let shares = drying(share, body.volume(), skin.volume());
+                let dried = [body.share_of_65536(shares[0]), skin.share_of_65536(shares[1])];
+                part.set_films(index, dried);
+                self.wet.set_films(at, [body.minus(&dried[0]), skin.minus(&dried[1])]);
             }
             layer.set_tile(tile, part);
         }
@@ -185,7 +205,7 @@ impl CpuPaint {
     pub(crate) fn save_tile(&mut self, tile: Tile, slot: UndoSlot) {
         let rect = self.rect_of(tile);
         self.saved_tiles.resize(self.saved_tiles.len().max(slot.0 + 1), None);
-        self.saved_tiles[slot.0] = Some(SavedTile::of(&self.wet.layer().part(rect)));
+        self.saved_tiles[slot.0] = Some(SavedTile::of(&self.wet.part(rect)));
     }
 
     pub(crate) fn swap_tile(&mut self, tile: Tile, slot: UndoSlot) {
@@ -195,10 +215,10 @@ impl CpuPaint {
         let saved = saved.expect("a tile is saved to a slot before it is swapped with it");
         let size = (rect.width, rect.height);
         assert_eq!(saved.size(), size, "{tile:?} was not saved to {slot:?}");
-        let now = SavedTile::of(&self.wet.layer().part(rect));
+        let now = SavedTile::of(&self.wet.part(rect));
         let before = std::mem::replace(saved, now);
         for index in 0..rect.width * rect.height {
-            self.wet.set_cell(canvas_index(rect, index, bounds), before.cell(index));
+            self.wet.set_films(canvas_index(rect, index, bounds), before.films(index));
         }
     }
 

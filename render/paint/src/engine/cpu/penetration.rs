@@ -430,6 +430,8 @@ pub(super) fn joined(a: &Range<usize>, b: &Range<usize>) -> Range<usize> {
 pub(super) struct Bed {
     /// Height of each block, in units of 256 quanta.
     blocks: Field<i32>,
+    /// Whether there was wet paint on each cell of each block, a byte a row, from the lowest bit on.
+    painted: Field<u64>,
 }
 
 impl Bed {
@@ -437,25 +439,52 @@ impl Bed {
     pub(super) fn unknown(bounds: Rect) -> Self {
         let width = bounds.width.div_ceil(BLOCK);
         let height = bounds.height.div_ceil(BLOCK);
-        Self { blocks: Field::filled(width, height, NO_BED) }
+        Self {
+            blocks: Field::filled(width, height, NO_BED),
+            painted: Field::filled(width, height, 0),
+        }
     }
 
-    /// Records the current surface height under `rect` (corner aligned to a block).
-    pub(super) fn note(&mut self, rect: Rect, floor: &Field<i32>, wet: &Columns) {
+    /// Records the current surface height under `rect` (corner aligned to a block). Returns whether
+    /// there is wet paint.
+    pub(super) fn note(&mut self, rect: Rect, floor: &Field<i32>, wet: &Columns) -> bool {
+        let mut any = 0;
         for y in (rect.y..rect.y + rect.height).step_by(BLOCK) {
             for x in (rect.x..rect.x + rect.width).step_by(BLOCK) {
                 let width = BLOCK.min(rect.x + rect.width - x);
                 let rows = y..(y + BLOCK).min(rect.y + rect.height);
                 let mut sum = 0;
+                let mut painted = 0_u64;
                 for row in rows.clone() {
                     let volume = &wet.volume()[row * floor.width() + x..][..width];
                     let tops = floor.row(row, x, width).iter().zip(volume);
                     sum += tops.map(|(&floor, &wet)| (floor + wet as i32) >> 8).sum::<i32>();
+                    for (column, &volume) in volume.iter().enumerate() {
+                        let bit = (row % BLOCK) * BLOCK + column;
+                        painted |= u64::from(volume > 0) << bit;
+                    }
                 }
                 self.blocks[(x / BLOCK, y / BLOCK)] =
                     block_height(sum, (width * rows.len()) as i32);
+                self.painted[(x / BLOCK, y / BLOCK)] = painted;
+                any |= painted;
             }
         }
+        any > 0
+    }
+
+    /// Writes whether there was wet paint on the cells of row `y` from `x` on. Returns whether there was
+    /// any.
+    #[inline(always)]
+    pub(super) fn painted_row(&self, (x, y): (usize, usize), out: &mut [bool]) -> bool {
+        let blocks = self.painted.row(y / BLOCK, 0, self.painted.width());
+        let mut any = 0;
+        for (column, out) in (x..).zip(out) {
+            let bit = blocks[column / BLOCK] >> ((y % BLOCK) * BLOCK + column % BLOCK) & 1;
+            *out = bit == 1;
+            any |= bit;
+        }
+        any == 1
     }
 
     /// Writes the heights in quanta of the cells of row `y` from `x` on to `out`.
@@ -476,6 +505,11 @@ impl Bed {
             }
             (x, out) = (x + count, rest);
         }
+    }
+
+    #[cfg(test)]
+    pub(super) fn painted_at(&self, cell: (usize, usize)) -> bool {
+        self.painted_row(cell, &mut [false])
     }
 
     #[cfg(test)]

@@ -109,6 +109,9 @@ impl RenderedView {
         internal.resize(span.len(), scene.ground);
         self.baked.copy_row(y, span.start, internal);
         composite_row(&scene.wet, wet.layer().pigments.row(y, span.start, span.len()), internal);
+        if let Some(skin) = wet.skin_row(y, span.start, span.len()) {
+            composite_row(&scene.wet, skin, internal);
+        }
         materials.clear();
         materials.extend(span.clone().map(|x| match wet.volume()[y * width + x] {
             0 if floor[(x, y)] == ground[(x, y)] => TopMaterial::Ground,
@@ -199,7 +202,9 @@ fn baked(scene: &Scene, dry: &[SparseLayer], tile: Tile, rect: Rect) -> Option<T
         let Some(part) = layer.tile(tile) else { continue };
         let backing = backing.get_or_insert_with(|| vec![scene.ground; rect.width * rect.height]);
         for (y, row) in backing.chunks_mut(rect.width).enumerate() {
-            composite_row(optics, part.pigments.row(y, 0, rect.width), row);
+            for film in part.single_films() {
+                composite_row(optics, film.pigments.row(y, 0, rect.width), row);
+            }
         }
     }
     backing

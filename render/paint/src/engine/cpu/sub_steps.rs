@@ -10,13 +10,15 @@ use graphics::lanes::vectorized;
 use graphics::tile::Rect;
 use pulp::{Simd, WithSimd};
 
-use super::columns::{Columns, HeadPaint, Row, Rows};
+use super::columns::{Columns, HeadPaint, Planes, Row, Rows, has_paint};
 use super::penetration::{Below, PenetrationMap};
 use super::velocities::{Cells, Inflow, SubStep, Velocities};
 use super::wick::Wick;
-use crate::contact::{Contact, Wicking};
+use crate::contact::{Contact, Touch, Wicking};
 use crate::layer::Cell;
 use crate::motion::MotionConstants;
+use crate::motion::press::NO_CONTACT;
+use crate::motion::skin::stirred;
 use crate::motion::transfer::{Exchange, exchange, leaving};
 
 /// Minimum number of cells of a contact's reach per thread. For example, a contact of 26 x 26 cells
@@ -101,11 +103,13 @@ impl SubStepRunner {
                 reach.y + reach.height * i / count..reach.y + reach.height * (i + 1) / count,
                 reach,
                 head.cells.volume().len(),
+                wet.skin_volume().is_some(),
             );
         }
         let penetration = &mut self.penetration;
         vectorized(MeasurePenetration { penetration, motion, contact, reach, below, wet, head });
-        let step = SubStep { motion, contact, bounds, reach, penetration, head };
+        let bed = below.bed;
+        let step = SubStep { motion, contact, bounds, reach, penetration, bed, head };
         let mut rows = wet.rows(reach.y, reach.height);
         on_each_band(bands, &mut rows, &|band, rows| {
             vectorized(Advect { band, step, rows });
@@ -228,8 +232,12 @@ impl WithSimd for AddBrushGains<'_> {
 #[derive(Debug, Default)]
 pub(super) struct Band {
     pub(super) rows: Range<usize>,
-    /// Paint that flows into these rows and into one row above and below.
+    /// Paint of the body that flows into these rows and into one row above and below.
     inflow: Inflow,
+    /// Paint of the skin that flows there. Empty if no cell has one.
+    skin_inflow: Inflow,
+    /// Whether there was wet paint before the stroke on the cells of a row.
+    painted: Vec<bool>,
     /// Paint that each cell of the head gains from this band, modulo 2^32.
     gains: Cells,
     /// Indices of the head's cells that may gain or lose paint. An index may occur several times or
@@ -241,8 +249,17 @@ pub(super) struct Band {
 
 impl Band {
     /// Assigns `rows` of `reach` to this band and makes its buffers large enough.
-    pub(super) fn begin(&mut self, rows: Range<usize>, reach: Rect, brush_cells: usize) {
+    pub(super) fn begin(
+        &mut self,
+        rows: Range<usize>,
+        reach: Rect,
+        brush_cells: usize,
+        has_skin: bool,
+    ) {
         self.inflow.begin(reach.width, rows.len() + 2);
+        if has_skin {
+            self.skin_inflow.begin(reach.width, rows.len() + 2);
+        }
         self.rows = rows;
         self.gains.grow(brush_cells);
     }
@@ -255,10 +272,16 @@ impl Band {
         for y in self.rows.clone() {
             let columns = step.penetration.moving(y);
             let mut row = rows.row(y, columns.start, columns.len());
-            self.velocities.of_row(step, row.volume, y);
+            self.velocities.of_row(step, row.body.volume, y);
             if !columns.is_empty() {
                 let place = (columns.start - step.reach.x, y + 1 - self.rows.start);
-                self.inflow.scatter(&self.velocities, &mut row, place);
+                self.inflow.scatter(&self.velocities, &mut row.body, place);
+                if let Some(skin) = row.skin.as_mut().filter(
+                    #[inline(always)]
+                    |skin| has_paint(skin.volume),
+                ) {
+                    self.skin_inflow.scatter(&self.velocities, skin, place);
+                }
             }
         }
     }
@@ -267,6 +290,9 @@ impl Band {
     /// the band that owns the row.
     pub(super) fn exchange_border_rows(&mut self, below: &mut Self) {
         self.inflow.exchange_border_rows(&mut below.inflow);
+        if self.skin_inflow.begun() {
+            self.skin_inflow.exchange_border_rows(&mut below.skin_inflow);
+        }
     }
 
     /// The rest of step 3, and step 4 for the canvas. [`Band::add_brush_gains`] changes the head's
@@ -276,10 +302,19 @@ impl Band {
         for y in self.rows.clone() {
             let inflow_row = y + 1 - self.rows.start;
             let changing = step.penetration.changing(y);
-            if self.inflow.has_flow(inflow_row) && !changing.is_empty() {
-                let row = rows.row(y, changing.start, changing.len());
+            let skin_flows = self.skin_inflow.has_flow(inflow_row);
+            if (self.inflow.has_flow(inflow_row) || skin_flows) && !changing.is_empty() {
+                let mut row = rows.row(y, changing.start, changing.len());
                 let from = changing.start - step.reach.x;
-                self.inflow.pour(from..from + changing.len(), inflow_row, row);
+                self.inflow.pour(from..from + changing.len(), inflow_row, &mut row.body);
+                if let Some(mut skin) = row.skin {
+                    if skin_flows {
+                        self.skin_inflow.pour(from..from + changing.len(), inflow_row, &mut skin);
+                    }
+                    for (both, skin) in row.body.volume.iter_mut().zip(skin.volume) {
+                        *both += *skin;
+                    }
+                }
             }
             let columns = step.penetration.in_contact(y);
             if !columns.is_empty() {
@@ -289,18 +324,37 @@ impl Band {
     }
 
     #[inline(always)]
-    fn transfer(&mut self, step: &SubStep<'_>, row: Row<'_>, y: usize) {
-        self.exchanges.of_row(step, row.volume, y);
+    fn transfer(&mut self, step: &SubStep<'_>, mut row: Row<'_>, y: usize) {
+        let columns = step.penetration.in_contact(y);
+        let touches = step.touches(y);
+        self.changed.extend(touches.iter().map(|touch| touch.brush_cell));
+        // A skin is laid where there was wet paint before the stroke.
+        self.painted.resize(columns.len(), false);
+        let layered =
+            row.skin.is_some() && step.bed.painted_row((columns.start, y), &mut self.painted);
+        let skin = row.skin.take().filter(
+            #[inline(always)]
+            |skin| layered || has_paint(skin.volume),
+        );
+        self.exchanges.of_row(step, row.body.volume, skin.as_ref().map(|skin| &*skin.volume), y);
+        match skin {
+            None => self.transfer_one_film(step, touches, row.body),
+            Some(skin) => self.transfer_two_films(step, y, row.body, skin),
+        }
+    }
+
+    /// Transfers between the head and cells without a skin.
+    #[inline(always)]
+    fn transfer_one_film(&mut self, step: &SubStep<'_>, touches: &[Touch], row: Planes<'_>) {
         let head = step.head.cells.layer();
         let cells = head.vehicle.values().len();
         // We give the slices one length, so that one check of an index is enough.
         let above = (&head.pigments.values()[..cells], &head.vehicle.values()[..cells]);
         let gains = (&mut self.gains.pigments[..cells], &mut self.gains.vehicle[..cells]);
-        let touches = step.touches(y);
-        self.changed.extend(touches.iter().map(|touch| touch.brush_cell));
         let paint = row.pigments.iter_mut().zip(row.vehicle).zip(row.volume);
         let exchanges = touches.iter().zip(&self.exchanges.found);
-        for (((pigments, vehicle), volume), (touch, &Exchange { down, up })) in paint.zip(exchanges)
+        for (((pigments, vehicle), volume), (touch, &Exchange { down, up: [up, _] })) in
+            paint.zip(exchanges)
         {
             if down | up == 0 {
                 continue;
@@ -314,6 +368,60 @@ impl Band {
             let gained = Cell { pigments: gains.0[at], vehicle: gains.1[at] };
             let gained = gained.wrapping_plus(&taken).wrapping_minus(&laid);
             (gains.0[at], gains.1[at]) = (gained.pigments, gained.vehicle);
+        }
+    }
+
+    /// Transfers between the head and cells with a body and a skin, then stirs both.
+    #[inline(always)]
+    fn transfer_two_films(
+        &mut self,
+        step: &SubStep<'_>,
+        y: usize,
+        body: Planes<'_>,
+        skin: Planes<'_>,
+    ) {
+        let head = step.head.cells.layer();
+        let cells = head.vehicle.values().len();
+        let above = (&head.pigments.values()[..cells], &head.vehicle.values()[..cells]);
+        let gains = (&mut self.gains.pigments[..cells], &mut self.gains.vehicle[..cells]);
+        let rates = step.contact.rates;
+        let columns = step.penetration.in_contact(y);
+        let penetrations = step.penetration.row(y, columns.start, columns.len());
+        let inputs = step.touches(y).iter().zip(penetrations);
+        let inputs = inputs.zip(&self.exchanges.found).zip(&self.painted).enumerate();
+        for (i, (((&touch, &penetration), &Exchange { down, up }), &painted)) in inputs {
+            if penetration == NO_CONTACT {
+                continue;
+            }
+            let mut films = [
+                Cell { pigments: body.pigments[i], vehicle: body.vehicle[i] },
+                Cell { pigments: skin.pigments[i], vehicle: skin.vehicle[i] },
+            ];
+            if down | up[0] | up[1] > 0 {
+                let at = touch.brush_cell as usize;
+                let laid = Cell { pigments: above.0[at], vehicle: above.1[at] };
+                let laid = laid.share_of_65536(down);
+                let taken = [films[0].share_of_65536(up[0]), films[1].share_of_65536(up[1])];
+                films = [films[0].minus(&taken[0]), films[1].minus(&taken[1])];
+                let upper = usize::from(painted);
+                films[upper] = films[upper].plus(&laid);
+                let gained = Cell { pigments: gains.0[at], vehicle: gains.1[at] };
+                let taken = taken[0].plus(&taken[1]);
+                let gained = gained.wrapping_plus(&taken).wrapping_minus(&laid);
+                (gains.0[at], gains.1[at]) = (gained.pigments, gained.vehicle);
+            }
+            let volumes = [films[0].volume(), films[1].volume()];
+            let shares = stirred(&rates, touch, penetration, volumes[0], volumes[1]);
+            if shares[0] | shares[1] > 0 {
+                let risen = films[0].share_of_65536(shares[0]);
+                let sunk = films[1].share_of_65536(shares[1]);
+                films[0] = films[0].minus(&risen).plus(&sunk);
+                films[1] = films[1].minus(&sunk).plus(&risen);
+            }
+            (body.pigments[i], body.vehicle[i]) = (films[0].pigments, films[0].vehicle);
+            (skin.pigments[i], skin.vehicle[i]) = (films[1].pigments, films[1].vehicle);
+            skin.volume[i] = films[1].volume();
+            body.volume[i] = films[0].volume() + skin.volume[i];
         }
     }
 
@@ -336,13 +444,21 @@ pub(super) struct Exchanges {
     pub(super) found: Vec<Exchange>,
     brush_volumes: Vec<u32>,
     leaving: Vec<u32>,
+    /// Zeros: the skins of a row without any.
+    no_skin: Vec<u32>,
 }
 
 impl Exchanges {
     /// Computes the transfers of the cells in contact of row `y`. `volumes` holds the heights of
-    /// its columns in quanta.
+    /// its columns in quanta, `skin` those of their skins.
     #[inline(always)]
-    pub(super) fn of_row(&mut self, step: &SubStep<'_>, volumes: &[u32], y: usize) {
+    pub(super) fn of_row(
+        &mut self,
+        step: &SubStep<'_>,
+        volumes: &[u32],
+        skin: Option<&[u32]>,
+        y: usize,
+    ) {
         let columns = step.penetration.in_contact(y);
         let bounds = step.bounds;
         let touches = step.touches(y);
@@ -359,17 +475,20 @@ impl Exchanges {
                 *out = leaving(touch, (x, y), bounds);
             }
         }
-        self.found.resize(columns.len(), Exchange { down: 0, up: 0 });
+        self.found.resize(columns.len(), Exchange { down: 0, up: [0; 2] });
+        self.no_skin.resize(columns.len(), 0);
+        let skin = skin.unwrap_or(&self.no_skin);
         let penetrations = step.penetration.row(y, columns.start, columns.len());
         let coats = step.penetration.coats(y, columns.start, columns.len());
         // We copy this, so that the loop need not load it again after each store.
         let rates = step.contact.rates;
         let heads = penetrations.iter().zip(coats);
-        let volumes = volumes.iter().zip(&self.brush_volumes).zip(&self.leaving);
+        let volumes = volumes.iter().zip(skin).zip(&self.brush_volumes).zip(&self.leaving);
         let inputs = touches.iter().zip(heads).zip(volumes);
         for (found, ((&touch, (&penetration, &coat)), volumes)) in self.found.iter_mut().zip(inputs)
         {
-            let ((&canvas, &brush), &leaving) = volumes;
+            let (((&both, &skin), &brush), &leaving) = volumes;
+            let canvas = [both - skin, skin];
             *found = exchange(&rates, touch, penetration, coat, canvas, brush, leaving);
         }
     }

@@ -22,6 +22,7 @@ use crate::motion::press::{
     CROWDED_VOLUME, Column, NO_CONTACT, avoid_crowded_columns, coat, dragged, flow, penetration,
     pressure, velocity,
 };
+use crate::motion::skin::{drying, stirred};
 use crate::motion::transfer::{Exchange, exchange, leaving};
 use crate::optics::{Gloss, Lamp, LayerOptics, NODES, Scene, SceneSurface};
 
@@ -63,6 +64,16 @@ fn random_layer(random: &mut ChaCha8Rng, width: usize, height: usize, highest: u
     layer
 }
 
+/// A random layer in which a part of the cells has a skin.
+fn random_films(random: &mut ChaCha8Rng, width: usize, height: usize, highest: u32) -> Layer {
+    let mut layer = random_layer(random, width, height, highest / 2);
+    let skin = random_layer(random, width, height, highest / 2);
+    for index in (0..width * height).filter(|index| index / 5 % 3 > 0) {
+        layer.set_films(index, [layer.cell(index), skin.cell(index)]);
+    }
+    layer
+}
+
 /// An engine with random paint up to four cells high on its canvas and on its brush.
 fn painted(random: &mut ChaCha8Rng, canvas: (usize, usize), brush: (usize, usize)) -> CpuPaint {
     painted_to(4 * QUANTA_PER_CELL, random, canvas, brush)
@@ -77,7 +88,7 @@ fn painted_to(
 ) -> CpuPaint {
     let heights = (0..canvas.0 * canvas.1).map(|_| random.random_range(-9999..300_000)).collect();
     let mut engine = CpuPaint::new(Field::from_values(canvas.0, canvas.1, heights));
-    let wet = random_layer(random, canvas.0, canvas.1, highest);
+    let wet = random_films(random, canvas.0, canvas.1, highest);
     engine.set_wet(&wet);
     engine.add_brush(brush.0, brush.1);
     let paint = random_layer(random, brush.0, brush.1, 4 * QUANTA_PER_CELL);
@@ -135,6 +146,8 @@ fn random_contact(
         sink: 8 * share(),
         drag: share() >> 8,
         bearing: share(),
+        shear: share(),
+        padding: [0; 3],
     };
     Contact { rect: Rect { x, y, width, height }, touches, rates, wicking }
 }
@@ -188,7 +201,8 @@ fn the_fast_path_agrees_with_the_specification() {
                 levelling_share: 8192,
                 adhesion_quanta: 65535,
                 everywhere: 0,
-                padding: [0; 2],
+                skin_quanta: 100_000,
+                padding: 0,
             },
             MotionConstants {
                 push_share: 0,
@@ -197,12 +211,13 @@ fn the_fast_path_agrees_with_the_specification() {
                 levelling_share: 0,
                 adhesion_quanta: 0,
                 everywhere: 1,
-                padding: [0; 2],
+                skin_quanta: 0,
+                padding: 0,
             },
         ];
         for (i, motion) in motions.iter().cycle().take(60).enumerate() {
             if i % 7 == 3 {
-                engine.note_bed(engine.bounds());
+                engine.note_bed(engine.bounds(), motion);
             }
             engine.set_mask(masks[i / 5 % 2].as_ref());
             let contact = random_contact(random, canvas, brush, None);
@@ -343,7 +358,10 @@ fn paint_in(rect: Rect) -> Layer {
     for y in rect.y..rect.y + rect.height {
         for x in rect.x..rect.x + rect.width {
             let pigments = std::array::from_fn(|i| (x * 1000 + y * 7 + i * 10_000) as u32);
-            layer.set_cell(y * WIDTH + x, Cell { pigments, vehicle: (y * 100) as u32 });
+            let cell = Cell { pigments, vehicle: (y * 100) as u32 };
+            // Every third cell has a skin.
+            let skin = cell.share_of_65536(if (x + y) % 3 == 0 { 20_000 } else { 0 });
+            layer.set_films(y * WIDTH + x, [cell.minus(&skin), skin]);
         }
     }
     layer
@@ -370,8 +388,11 @@ fn drying_parts_the_paint_and_raises_the_floor_by_what_dried() {
     let dried = engine.dry_layer(0);
     let risen = engine.floor();
     for index in 0..WIDTH * HEIGHT {
+        let [body, skin] = wet.films(index);
+        let [of_body, of_skin] = drying(20_000, body.volume(), skin.volume());
+        let films = [body.share_of_65536(of_body), skin.share_of_65536(of_skin)];
         assert_eq!(rest.cell(index).plus(&dried.cell(index)), wet.cell(index), "cell {index}");
-        assert_eq!(dried.cell(index), wet.cell(index).share_of_65536(20_000), "cell {index}");
+        assert_eq!(dried.films(index), films, "cell {index}");
         let rise = risen.values()[index] - floor.values()[index];
         assert_eq!(rise, dried.cell(index).volume() as i32, "cell {index}");
     }
@@ -406,8 +427,8 @@ fn a_tile_is_exchanged_with_what_was_saved_and_nothing_else_changes() {
         let x = index % WIDTH;
         let y = index / WIDTH;
         let inside = (64..128).contains(&x) && y >= 64;
-        let expected = if inside { before.cell(index) } else { after.cell(index) };
-        assert_eq!(swapped.cell(index), expected, "cell {x}, {y}");
+        let expected = if inside { before.films(index) } else { after.films(index) };
+        assert_eq!(swapped.films(index), expected, "cell {x}, {y}");
     }
     engine.swap_tile(tile, UndoSlot(3));
     assert!(engine.wet() == after, "exchanged twice");
@@ -549,10 +570,11 @@ pub(super) fn sub_step(
         let beyond = top(x + 2 * right, y + 2 * down);
         flow(motion, before, column(x, y), next, beyond)
     };
-    let change = |wet: &mut Layer, x: i64, y: i64, act: &dyn Fn(&Cell) -> Cell| {
+    let change = |wet: &mut Layer, x: i64, y: i64, film: usize, act: &dyn Fn(&Cell) -> Cell| {
         let index = y as usize * width + x as usize;
-        let cell = act(&wet.cell(index));
-        wet.set_cell(index, cell);
+        let mut films = wet.films(index);
+        films[film] = act(&films[film]);
+        wet.set_films(index, films);
     };
     let moving = rect.grown(1, floor.bounds());
     for y in moving.y as i64..(moving.y + moving.height) as i64 {
@@ -563,8 +585,8 @@ pub(super) fn sub_step(
             {
                 continue;
             }
-            let cell = start.cell(y as usize * width + x as usize);
-            let volume = cell.volume();
+            let films = start.films(y as usize * width + x as usize);
+            let volume = films[0].volume() + films[1].volume();
             let head = dragged(rates, touch(x, y), pressed(x, y), volume);
             let in_x = (flow_from(x - 1, y, (1, 0)), flow_from(x, y, (1, 0)));
             let in_y = (flow_from(x, y - 1, (0, 1)), flow_from(x, y, (0, 1)));
@@ -589,9 +611,11 @@ pub(super) fn sub_step(
             for (to_x, to_y, share) in
                 [(in_x, y, out.in_x), (x, in_y, out.in_y), (in_x, in_y, out.diagonal)]
             {
-                let part = cell.share_of_65536(share);
-                change(wet, x, y, &|cell| cell.minus(&part));
-                change(wet, to_x, to_y, &|cell| cell.plus(&part));
+                for (film, cell) in films.iter().enumerate() {
+                    let part = cell.share_of_65536(share);
+                    change(wet, x, y, film, &|cell| cell.minus(&part));
+                    change(wet, to_x, to_y, film, &|cell| cell.plus(&part));
+                }
             }
         }
     }
@@ -603,20 +627,29 @@ pub(super) fn sub_step(
                 continue;
             }
             let at = here.brush_cell as usize;
-            let canvas = wet.cell(y as usize * width + x as usize);
+            let [body, skin] = wet.films(y as usize * width + x as usize);
             let Exchange { down, up } = exchange(
                 rates,
                 here,
                 deep,
                 coat_at(x, y),
-                canvas.volume(),
+                [body.volume(), skin.volume()],
                 head.cell(at).volume(),
                 leaving(here, (x as usize, y as usize), floor.bounds()),
             );
             let laid = head.cell(at).share_of_65536(down);
-            let taken = canvas.share_of_65536(up);
-            change(wet, x, y, &|cell| cell.minus(&taken).plus(&laid));
-            brush.set_cell(at, brush.cell(at).minus(&laid).plus(&taken));
+            let taken = [body.share_of_65536(up[0]), skin.share_of_65536(up[1])];
+            for (film, taken) in taken.iter().enumerate() {
+                change(wet, x, y, film, &|cell| cell.minus(taken));
+            }
+            let upper = usize::from(bed.painted_at((x as usize, y as usize)));
+            change(wet, x, y, upper, &|cell| cell.plus(&laid));
+            brush.set_cell(at, brush.cell(at).minus(&laid).plus(&taken[0]).plus(&taken[1]));
+            let [body, skin] = wet.films(y as usize * width + x as usize);
+            let [sinks, rises] = stirred(rates, here, deep, body.volume(), skin.volume());
+            let [risen, sunk] = [body.share_of_65536(sinks), skin.share_of_65536(rises)];
+            change(wet, x, y, 0, &|cell| cell.minus(&risen).plus(&sunk));
+            change(wet, x, y, 1, &|cell| cell.minus(&sunk).plus(&risen));
         }
     }
 }

@@ -7,8 +7,8 @@ use std::ops::Range;
 
 use graphics::tile::Rect;
 
-use super::columns::{HeadPaint, Row};
-use super::penetration::PenetrationMap;
+use super::columns::{HeadPaint, Planes};
+use super::penetration::{Bed, PenetrationMap};
 use crate::amount::share_of_65536;
 use crate::contact::{Contact, Touch};
 use crate::layer::{Cell, SLOTS};
@@ -166,6 +166,8 @@ pub(super) struct SubStep<'a> {
     /// The contact's rectangle grown by two cells.
     pub(super) reach: Rect,
     pub(super) penetration: &'a PenetrationMap,
+    /// The surface before the stroke.
+    pub(super) bed: &'a Bed,
     /// Paint on the head at the start of the sub-step.
     pub(super) head: &'a HeadPaint,
 }
@@ -228,16 +230,21 @@ impl Inflow {
     }
 
     pub(super) fn has_flow(&self, y: usize) -> bool {
-        self.flows[y]
+        self.flows.get(y) == Some(&true)
     }
 
-    /// Takes the paint that leaves the columns of `row` and adds it to the cells that it reaches.
-    /// The first column lies at column `x` of row `y`, which is neither the first row nor the last.
+    /// Whether there is room for paint.
+    pub(super) fn begun(&self) -> bool {
+        !self.flows.is_empty()
+    }
+
+    /// Takes the paint of a film that leaves the columns of `row` and adds it to the cells that it
+    /// reaches. The first column lies at column `x` of row `y`, which is neither the first row nor the last.
     #[inline(always)]
     pub(super) fn scatter(
         &mut self,
         velocities: &Velocities,
-        row: &mut Row<'_>,
+        row: &mut Planes<'_>,
         (x, y): (usize, usize),
     ) {
         self.take_vehicle(velocities, row.vehicle);
@@ -320,9 +327,10 @@ impl Inflow {
         }
     }
 
-    /// Moves the paint at `columns` of row `y` into `row`, which has as many cells.
+    /// Moves the paint at `columns` of row `y` into the film `row`, which has as many cells. Sets its
+    /// volumes to those of the film.
     #[inline(always)]
-    pub(super) fn pour(&mut self, columns: Range<usize>, y: usize, row: Row<'_>) {
+    pub(super) fn pour(&mut self, columns: Range<usize>, y: usize, row: &mut Planes<'_>) {
         let first = y * self.width;
         let cells = first + columns.start..first + columns.end;
         let Cells { pigments, vehicle } = &mut self.cells;

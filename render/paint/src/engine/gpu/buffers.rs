@@ -12,22 +12,31 @@ pub(super) const PIGMENT_BYTES: u64 = 4 * SLOTS as u64;
 /// A layer of paint on the device. You can clone the handles cheaply.
 #[derive(Debug, Clone)]
 pub(super) struct PaintBuffers {
-    /// Eight u32 amounts per cell, by slot.
+    /// Eight u32 amounts per cell, by slot: the body, then the skin if there is room for one.
     pub(super) pigments: Buffer,
-    /// One u32 amount per cell.
+    /// One u32 amount per cell, in the same order.
     pub(super) vehicle: Buffer,
+    /// Number of cells of the body.
+    pub(super) cells: usize,
+    /// Whether the skin follows the body.
+    pub(super) skin: bool,
 }
 
 impl PaintBuffers {
-    /// Allocates `cells` cells without paint. You see `label` in errors.
+    /// Allocates `cells` cells without paint, and as many for a skin if you want one. You see `label`
+    /// in errors.
     pub(super) fn empty(
         device: &Device,
         label: &'static str,
         cells: usize,
+        skin: bool,
     ) -> Result<Self, DeviceError> {
+        let all = if skin { 2 * cells } else { cells } as u64;
         Ok(Self {
-            pigments: device.buffer(label, PIGMENT_BYTES * cells as u64)?,
-            vehicle: device.buffer(label, 4 * cells as u64)?,
+            pigments: device.buffer(label, PIGMENT_BYTES * all)?,
+            vehicle: device.buffer(label, 4 * all)?,
+            cells,
+            skin,
         })
     }
 
@@ -38,9 +47,17 @@ impl PaintBuffers {
         (rect, width): (Rect, usize),
         layer: &Layer,
     ) -> Result<(), DeviceError> {
-        let rows = Rows::of(rect, width);
-        device.write(&self.pigments, rows, layer.pigments.values())?;
-        device.write(&self.vehicle, rows, layer.vehicle.values())
+        self.write(device, Rows::of(rect, width), layer)?;
+        let Some(rows) = self.skin_rows(rect, width) else { return Ok(()) };
+        match layer.painted_skin() {
+            Some(skin) => self.write(device, rows, skin),
+            None => self.write(device, rows, &Layer::empty(rect.width, rect.height)),
+        }
+    }
+
+    fn write(&self, device: &mut Device, rows: Rows, film: &Layer) -> Result<(), DeviceError> {
+        device.write(&self.pigments, rows, film.pigments.values())?;
+        device.write(&self.vehicle, rows, film.vehicle.values())
     }
 
     /// Downloads the cells of `rect`, from a buffer whose rows have `width` cells.
@@ -49,13 +66,36 @@ impl PaintBuffers {
         device: &mut Device,
         (rect, width): (Rect, usize),
     ) -> Result<Layer, DeviceError> {
-        let rows = Rows::of(rect, width);
+        let size = (rect.width, rect.height);
+        let mut layer = self.read(device, Rows::of(rect, width), size)?;
+        if let Some(rows) = self.skin_rows(rect, width) {
+            layer.skin = Some(Box::new(self.read(device, rows, size)?));
+            if layer.painted_skin().is_none() {
+                layer.skin = None;
+            }
+        }
+        Ok(layer)
+    }
+
+    fn read(
+        &self,
+        device: &mut Device,
+        rows: Rows,
+        (width, height): (usize, usize),
+    ) -> Result<Layer, DeviceError> {
         let pigments = device.read(&self.pigments, rows)?;
         let vehicle = device.read(&self.vehicle, rows)?;
         Ok(Layer {
-            pigments: Field::from_values(rect.width, rect.height, pigments),
-            vehicle: Field::from_values(rect.width, rect.height, vehicle),
+            pigments: Field::from_values(width, height, pigments),
+            vehicle: Field::from_values(width, height, vehicle),
+            skin: None,
         })
+    }
+
+    /// The cells of the skin in `rect`. `None` without one.
+    fn skin_rows(&self, rect: Rect, width: usize) -> Option<Rows> {
+        let rows = Rows::of(rect, width);
+        self.skin.then(|| Rows { first: self.cells + rows.first, ..rows })
     }
 }
 
@@ -72,7 +112,8 @@ impl BrushBuffers {
         let label = "the head of a brush";
         let pigments = device.buffer(label, PIGMENT_BYTES * cells)?;
         let vehicle = device.buffer(label, 2 * 4 * cells)?;
-        Ok(Self { size, paint: PaintBuffers { pigments, vehicle } })
+        let cells = cells as usize;
+        Ok(Self { size, paint: PaintBuffers { pigments, vehicle, cells, skin: false } })
     }
 
     /// Uploads the paint of all cells. The means are 0 until paint flows along the hair.
@@ -105,7 +146,7 @@ pub(super) struct SubStepBuffers {
     pub(super) above: Buffer,
     /// Velocity and mobile share of each cell.
     pub(super) flow: Buffer,
-    /// Paint of each cell after advection.
+    /// Body of each cell after advection, then the skin of each.
     pub(super) moved: Buffer,
 }
 
@@ -117,7 +158,7 @@ impl SubStepBuffers {
             depths: buffer(16)?,
             above: buffer(48)?,
             flow: buffer(8)?,
-            moved: buffer(48)?,
+            moved: buffer(96)?,
         })
     }
 }
@@ -128,13 +169,19 @@ pub(super) fn mask_start(canvas: Rect) -> usize {
     canvas.width * canvas.height + blocks
 }
 
+/// Index in the buffer of the floor from which on two words hold which cells of each block had wet paint
+/// before the stroke, a byte for each row.
+pub(super) fn painted_start(canvas: Rect) -> usize {
+    mask_start(canvas) + (canvas.width * canvas.height).div_ceil(32)
+}
+
 /// Creates the buffer that holds the floor, then a bed that you have not recorded yet, then a mask
-/// that covers no cell.
+/// that covers no cell, then the cells that had paint before the stroke: none.
 pub(super) fn floor_buffer(device: &mut Device, floor: &Field<i32>) -> Result<Buffer, DeviceError> {
-    let cells = floor.values().len();
-    let mask = mask_start(floor.bounds());
+    let bounds = floor.bounds();
     let mut values = floor.values().to_vec();
-    values.resize(mask, NO_BED);
-    values.resize(mask + cells.div_ceil(32), 0);
+    let blocks = mask_start(bounds) - values.len();
+    values.resize(mask_start(bounds), NO_BED);
+    values.resize(painted_start(bounds) + 2 * blocks, 0);
     device.buffer_of("the ground", &values)
 }

@@ -20,6 +20,7 @@ use crate::motion::bed::BLOCK;
 use crate::optics::Scene;
 use buffers::{
     BrushBuffers, PIGMENT_BYTES, PaintBuffers, SubStepBuffers, floor_buffer, mask_start,
+    painted_start,
 };
 use render::{CanvasBuffers, Tops, ViewBuffers};
 use sub_step::{
@@ -44,14 +45,17 @@ pub struct GpuPaint {
     recording: Recording,
     wet: PaintBuffers,
     /// Height of ground and dry paint of each cell in quanta, then the bed of all blocks (see
-    /// [`crate::motion::bed`]), then the bits of the mask.
+    /// [`crate::motion::bed`]), then the bits of the mask, then of the cells painted before the stroke.
     floor: Buffer,
-    /// The first number is the index at which the mask begins in `floor`. Without a mask this is 0.
-    mask: [u32; 4],
+    /// Index at which the mask begins in `floor`. Without a mask this is 0.
+    mask: u32,
     brushes: Vec<BrushBuffers>,
     sub_step: SubStepBuffers,
     dry: Vec<PaintBuffers>,
     undo_tiles: UndoTiles,
+    /// Tiles that may have wet paint, and tiles that may have a skin.
+    painted: TileSet,
+    skinned: TileSet,
     tops: Tops,
     /// Buffers of each [`View`], once they are allocated.
     views: [Option<ViewBuffers>; 2],
@@ -61,7 +65,7 @@ pub struct GpuPaint {
 /// the device's memory before this.
 #[must_use]
 pub fn max_canvas_cells(adapter: &Adapter) -> u64 {
-    adapter.limits.binding_bytes / PIGMENT_BYTES
+    adapter.limits.binding_bytes / (2 * PIGMENT_BYTES)
 }
 
 impl GpuPaint {
@@ -70,17 +74,19 @@ impl GpuPaint {
         let bounds = floor.bounds();
         let cells = bounds.width * bounds.height;
         // This is the largest of all buffers, so we check it before we allocate any.
-        device.check_size("the canvas", PIGMENT_BYTES * cells as u64)?;
+        device.check_size("the canvas", 2 * PIGMENT_BYTES * cells as u64)?;
         Ok(Self {
             bounds,
             recording: Recording::default(),
-            wet: PaintBuffers::empty(&device, "the wet paint", cells)?,
+            wet: PaintBuffers::empty(&device, "the wet paint", cells, true)?,
             floor: floor_buffer(&mut device, floor)?,
-            mask: [0; 4],
+            mask: 0,
             brushes: Vec::new(),
             sub_step: SubStepBuffers::new(&device, 1)?,
             dry: Vec::new(),
             undo_tiles: UndoTiles::default(),
+            painted: TileSet::default(),
+            skinned: TileSet::default(),
             tops: Tops::new(bounds),
             views: [None, None],
             device,
@@ -161,6 +167,10 @@ impl GpuPaint {
         assert_eq!(size, (rect.width, rect.height), "paint must cover {rect:?}");
         let rows = self.canvas_rows(rect);
         self.tops.change(rect);
+        self.painted.insert(rect);
+        if paint.painted_skin().is_some() {
+            self.skinned.insert(rect);
+        }
         self.wet.upload(&mut self.device, rows, paint)
     }
 
@@ -171,8 +181,8 @@ impl GpuPaint {
 
     pub(crate) fn dry(&mut self, share: u32) -> Result<(), DeviceError> {
         assert!(share <= 65536, "a share of the paint is at most 65536 parts: {share}");
-        let layer = self.empty_dry_layer()?;
-        let params = DryParams { canvas: self.canvas_size(), share, rise: 1 };
+        let layer = self.empty_dry_layer(!self.skinned.is_empty())?;
+        let params = self.dry_params(share, 1, &layer);
         self.record_dry(&sub_step::DRY, &layer, params);
         self.dry.push(layer);
         self.submit()
@@ -191,9 +201,9 @@ impl GpuPaint {
     pub(crate) fn insert_dry_layer(&mut self, at: usize, layer: &Layer) -> Result<(), DeviceError> {
         assert_eq!(layer.vehicle.bounds(), self.bounds, "a dry layer must cover the canvas");
         self.submit()?;
-        let paint = self.empty_dry_layer()?;
+        let paint = self.empty_dry_layer(layer.painted_skin().is_some())?;
         paint.upload(&mut self.device, (self.bounds, self.bounds.width), layer)?;
-        let params = DryParams { canvas: self.canvas_size(), share: 0, rise: 1 };
+        let params = self.dry_params(0, 1, &paint);
         self.record_dry(&sub_step::MOVE_FLOOR, &paint, params);
         self.dry.insert(at, paint);
         self.submit()
@@ -201,8 +211,8 @@ impl GpuPaint {
 
     pub(crate) fn remove_dry_layer(&mut self, index: usize) -> Result<Layer, DeviceError> {
         let layer = self.dry_layer_in(index, self.bounds)?;
-        let params = DryParams { canvas: self.canvas_size(), share: 0, rise: -1 };
         let paint = self.dry.remove(index);
+        let params = self.dry_params(0, -1, &paint);
         self.record_dry(&sub_step::MOVE_FLOOR, &paint, params);
         self.submit().map(|()| layer)
     }
@@ -227,9 +237,25 @@ impl GpuPaint {
         self.record_undo_tile(tile, slot, true)
     }
 
-    pub(crate) fn note_bed(&mut self, rect: Rect) -> Result<(), DeviceError> {
+    pub(crate) fn may_have_skin(&self, rect: Rect) -> bool {
+        self.skinned.meets(rect)
+    }
+
+    pub(crate) fn note_bed(
+        &mut self,
+        rect: Rect,
+        motion: &MotionConstants,
+    ) -> Result<(), DeviceError> {
         let (rect, _) = self.canvas_rows(rect);
-        let params = BedParams { tile: as_u32(rect), canvas: self.canvas_size(), padding: [0; 2] };
+        if self.painted.meets(rect) {
+            self.skinned.insert(rect);
+        }
+        let params = BedParams {
+            tile: as_u32(rect),
+            canvas: self.canvas_size(),
+            skin_quanta: motion.skin_quanta,
+            painted: painted_start(self.bounds) as u32,
+        };
         let buffers = [&self.wet.pigments, &self.wet.vehicle, &self.floor];
         let over = [rect.width, rect.height].map(|cells| groups(cells.div_ceil(BLOCK)));
         let over = [over[0], over[1], 1];
@@ -246,9 +272,10 @@ impl GpuPaint {
     ) -> Result<(), DeviceError> {
         let view = self.view_buffers(view)?;
         let size = self.canvas_size();
-        let Self { device, recording, wet, floor, dry, tops, .. } = self;
-        let surface_heights = &tops.record(device, recording, wet, floor)?;
-        let canvas = CanvasBuffers { size, wet, surface_heights, dry };
+        let Self { device, recording, wet, floor, dry, tops, skinned, .. } = self;
+        let has_skin = !skinned.is_empty();
+        let surface_heights = &tops.record(device, recording, wet, floor, has_skin)?;
+        let canvas = CanvasBuffers { size, wet, surface_heights, dry, has_skin };
         view.record(recording, &canvas, scene, baked, shown);
         self.submit()
     }
@@ -304,6 +331,12 @@ impl GpuPaint {
         check_contact(contact, self.bounds, head.cell_count());
         let region = contact.rect.grown(2, self.bounds);
         self.tops.change(region);
+        self.painted.insert(region);
+        let has_skin = self.skinned.meets(region);
+        // Paint may flow on.
+        if has_skin {
+            self.skinned.insert(region);
+        }
         let cells = region.width * region.height;
         if self.sub_step.cells < cells {
             // We take 1.5 times the size, so that a growing contact seldom reallocates.
@@ -319,10 +352,10 @@ impl GpuPaint {
             canvas: self.canvas_size(),
             first_touch: self.recording.batch(&contact.touches),
             brush_cells: head.cell_count(),
-            mask: self.mask,
+            mask: [self.mask, painted_start(self.bounds) as u32, u32::from(has_skin), 0],
         };
-        let PaintBuffers { pigments, vehicle } = &self.wet;
-        let PaintBuffers { pigments: head_pigments, vehicle: head_vehicle } = &head.paint;
+        let PaintBuffers { pigments, vehicle, .. } = &self.wet;
+        let PaintBuffers { pigments: head_pigments, vehicle: head_vehicle, .. } = &head.paint;
         let SubStepBuffers { depths, above, flow, moved, .. } = &self.sub_step;
         let over = [groups(region.width), groups(region.height), 1];
         let recording = &mut self.recording;
@@ -365,11 +398,18 @@ impl GpuPaint {
             canvas: self.canvas_size(),
             first_cell,
             swap: u32::from(swap),
+            saved_skin: saved.cells as u32,
+            padding: [0; 3],
         };
         let buffers = [&self.wet.pigments, &self.wet.vehicle, &saved.pigments, &saved.vehicle];
         let over = [groups(TILE), groups(TILE), 1];
         if swap {
             self.tops.change(rect);
+            self.painted.insert(rect);
+            // The saved tile may have a skin if any did.
+            if !self.skinned.is_empty() {
+                self.skinned.insert(rect);
+            }
         }
         self.recording.dispatch(&UNDO_TILE, &params, &buffers, over);
         self.submit_if_full()
@@ -384,9 +424,14 @@ impl GpuPaint {
         self.recording.dispatch(kernel, &params, &buffers, over);
     }
 
-    fn empty_dry_layer(&self) -> Result<PaintBuffers, DeviceError> {
+    fn empty_dry_layer(&self, skin: bool) -> Result<PaintBuffers, DeviceError> {
         let cells = self.bounds.width * self.bounds.height;
-        PaintBuffers::empty(&self.device, "a dry layer", cells)
+        PaintBuffers::empty(&self.device, "a dry layer", cells, skin)
+    }
+
+    fn dry_params(&self, share: u32, rise: i32, layer: &PaintBuffers) -> DryParams {
+        let films = if layer.skin { 2 } else { 1 };
+        DryParams { canvas: self.canvas_size(), share, rise, films, padding: [0; 3] }
     }
 
     /// The buffers of a view. We allocate them when you first ask for them.
@@ -408,13 +453,13 @@ impl GpuPaint {
     pub(crate) fn set_mask(&mut self, mask: Option<&Mask>) -> Result<(), DeviceError> {
         self.submit()?;
         let Some(mask) = mask else {
-            self.mask = [0; 4];
+            self.mask = 0;
             return Ok(());
         };
         let start = mask_start(self.bounds);
         let rows = Rows { first: start, ..Rows::start(mask.words().len()) };
         self.device.write(&self.floor, rows, mask.words())?;
-        self.mask = [start as u32, 0, 0, 0];
+        self.mask = start as u32;
         Ok(())
     }
 }

@@ -37,7 +37,8 @@ struct BakeParams {
     ground: [f32; NODES],
     canvas: [u32; 2],
     first_tile: u32,
-    padding: u32,
+    /// Index of the film's first cell in its buffer.
+    first_cell: u32,
 }
 
 /// Saunderson's shares of the surface between paint and air.
@@ -77,7 +78,8 @@ struct ShowParams {
     lamp: LampParams,
     canvas: [u32; 2],
     first_tile: u32,
-    padding: u32,
+    /// 1 if a cell of the wet layer may have a skin.
+    skin: u32,
 }
 
 const LAYER_OPTICS: Layout = layout!(LayerOptics { absorption, scattering });
@@ -89,7 +91,7 @@ const BAKE_SOURCE: &str = concat!(
     include_str!("passes/bake_tiles.wgsl"),
 );
 
-const BAKE_PARAMS: Layout = layout!(BakeParams { layer, ground, canvas, first_tile, padding });
+const BAKE_PARAMS: Layout = layout!(BakeParams { layer, ground, canvas, first_tile, first_cell });
 
 const BAKE_STORAGE: &[Storage] =
     &[Storage::Batch, Storage::Read, Storage::Read, Storage::Write, Storage::Write];
@@ -129,7 +131,7 @@ pub(super) static SHOW: Kernel = Kernel {
         lamp,
         canvas,
         first_tile,
-        padding
+        skin
     }),
     structs: &[
         LAYER_OPTICS,
@@ -166,6 +168,8 @@ pub(super) struct CanvasBuffers<'a> {
     /// Height of the surface of each cell in quanta.
     pub(super) surface_heights: &'a Buffer,
     pub(super) dry: &'a [PaintBuffers],
+    /// Whether a cell of the wet layer may have a skin.
+    pub(super) has_skin: bool,
 }
 
 /// The buffers of one view. You can clone the handles cheaply.
@@ -264,7 +268,7 @@ impl ViewBuffers {
             ground: scene.ground,
             canvas: canvas.size,
             first_tile: recording.batch(tiles),
-            padding: 0,
+            first_cell: 0,
         };
         let buffers = |paint: &PaintBuffers| {
             [&paint.pigments, &paint.vehicle, &self.baked, &self.material].map(Clone::clone)
@@ -273,8 +277,12 @@ impl ViewBuffers {
         recording.dispatch(&PRIME, &params, &ground.each_ref(), workgroups(tiles, 1));
         let fewer = workgroups(tiles, CELLS_AT_ONCE);
         for (layer, paint) in scene.dry.iter().zip(canvas.dry) {
-            let params = BakeParams { layer: layer.into(), ..params };
-            recording.dispatch(&BAKE, &params, &buffers(paint).each_ref(), fewer);
+            let films = if paint.skin { 2 } else { 1 };
+            for film in 0..films {
+                let first_cell = (film * paint.cells) as u32;
+                let params = BakeParams { layer: layer.into(), first_cell, ..params };
+                recording.dispatch(&BAKE, &params, &buffers(paint).each_ref(), fewer);
+            }
         }
     }
 
@@ -298,9 +306,9 @@ impl ViewBuffers {
             lamp: ReliefLamp::new(scene).into(),
             canvas: canvas.size,
             first_tile: recording.batch(tiles),
-            padding: 0,
+            skin: u32::from(canvas.has_skin),
         };
-        let PaintBuffers { pigments, vehicle } = canvas.wet;
+        let PaintBuffers { pigments, vehicle, .. } = canvas.wet;
         let heights = canvas.surface_heights;
         let buffers = [pigments, vehicle, heights, &self.baked, &self.material, &self.picture];
         recording.dispatch(&SHOW, &params, &buffers, workgroups(tiles, CELLS_AT_ONCE));
@@ -323,7 +331,8 @@ pub(super) fn workgroups(tiles: &[[u32; 2]], cells: u32) -> [u32; 3] {
 struct RaiseParams {
     canvas: [u32; 2],
     first_tile: u32,
-    padding: u32,
+    /// 1 if a cell may have a skin.
+    skin: u32,
 }
 
 /// Adds up the heights of floor and wet paint.
@@ -339,7 +348,7 @@ pub(super) static RAISE: Kernel = Kernel {
     storage: &[Storage::Batch, Storage::Read, Storage::Read, Storage::Read, Storage::Write],
 };
 
-const PARAMS: Layout = layout!(RaiseParams { canvas, first_tile, padding });
+const PARAMS: Layout = layout!(RaiseParams { canvas, first_tile, skin });
 
 /// Height of the surface of each cell in quanta.
 #[derive(Debug)]
@@ -374,6 +383,7 @@ impl Tops {
         recording: &mut Recording,
         wet: &PaintBuffers,
         floor: &Buffer,
+        has_skin: bool,
     ) -> Result<Buffer, DeviceError> {
         let cells = self.bounds.width * self.bounds.height;
         let heights = match self.heights.take() {
@@ -383,7 +393,8 @@ impl Tops {
         self.heights = Some(heights.clone());
         let canvas = [self.bounds.width as u32, self.bounds.height as u32];
         for tiles in columns_and_rows(&self.stale.take()).chunks(MAX_TILES) {
-            let params = RaiseParams { canvas, first_tile: recording.batch(tiles), padding: 0 };
+            let skin = u32::from(has_skin);
+            let params = RaiseParams { canvas, first_tile: recording.batch(tiles), skin };
             let buffers = [&wet.pigments, &wet.vehicle, floor, &heights];
             recording.dispatch(&RAISE, &params, &buffers, workgroups(tiles, 1));
         }

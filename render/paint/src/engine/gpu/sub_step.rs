@@ -23,8 +23,8 @@ pub(super) struct SubStepParams {
     /// Index of the contact's first touch in the batch.
     pub(super) first_touch: u32,
     pub(super) brush_cells: u32,
-    /// The first number is the index of the mask's first word in the buffer of the floor. Without a
-    /// mask this is 0.
+    /// Index of the mask's first word in the buffer of the floor, 0 without a mask. Then the index of
+    /// the first block's painted cells there. Then 1 if a cell of the region may have a skin.
     pub(super) mask: [u32; 4],
 }
 
@@ -47,9 +47,21 @@ const STRUCTS: &[Layout] = &[
         levelling_share,
         adhesion_quanta,
         everywhere,
+        skin_quanta,
         padding
     }),
-    layout!(ExchangeRates { release, film, deposit, pick_up, mixing, sink, drag, bearing }),
+    layout!(ExchangeRates {
+        release,
+        film,
+        deposit,
+        pick_up,
+        mixing,
+        sink,
+        drag,
+        bearing,
+        shear,
+        padding
+    }),
     layout!(Touch { height, brush_cell, velocity, weights }),
 ];
 
@@ -108,7 +120,11 @@ pub(super) static ADVECT: Kernel = Kernel {
 /// Transfers paint between canvas and head, and writes the canvas.
 pub(super) static TRANSFER: Kernel = Kernel {
     name: "transfer_cells",
-    source: sub_step_source!("../../motion/transfer.wgsl", "passes/transfer.wgsl"),
+    source: sub_step_source!(
+        "../../motion/transfer.wgsl",
+        "../../motion/skin.wgsl",
+        "passes/transfer.wgsl"
+    ),
     parameters: SUB_STEP_PARAMS,
     structs: STRUCTS,
     storage: &[
@@ -130,20 +146,25 @@ pub(super) struct BedParams {
     /// x, y, width and height in cells of the canvas.
     pub(super) tile: [u32; 4],
     pub(super) canvas: [u32; 2],
-    pub(super) padding: [u32; 2],
+    /// Height of a skin that stays, [`MotionConstants::skin_quanta`].
+    pub(super) skin_quanta: u32,
+    /// Index of the first block's painted cells in the buffer of the floor.
+    pub(super) painted: u32,
 }
 
-/// Records the surface of the paint in a tile as the bed of a stroke.
+/// Records the surface of the paint in a tile as the bed of a stroke, and settles its skins.
 pub(super) static NOTE_BED: Kernel = Kernel {
     name: "note_bed",
     source: concat!(
         include_str!("../../amount.wgsl"),
         include_str!("../../layer.wgsl"),
+        include_str!("../../contact.wgsl"),
+        include_str!("../../motion/skin.wgsl"),
         include_str!("passes/note_bed.wgsl"),
     ),
-    parameters: layout!(BedParams { tile, canvas, padding }),
+    parameters: layout!(BedParams { tile, canvas, skin_quanta, painted }),
     structs: &[],
-    storage: &[Storage::Read, Storage::Read, Storage::Write],
+    storage: &[Storage::Write, Storage::Write, Storage::Write],
 };
 
 /// Uniforms of [`WICK`].
@@ -197,13 +218,18 @@ pub(super) struct DryParams {
     pub(super) share: u32,
     /// 1 when a dry layer is added, -1 when it is removed.
     pub(super) rise: i32,
+    /// 2 if the dry layer has a skin, else 1.
+    pub(super) films: u32,
+    pub(super) padding: [u32; 3],
 }
 
-const DRY_PARAMS: Layout = layout!(DryParams { canvas, share, rise });
+const DRY_PARAMS: Layout = layout!(DryParams { canvas, share, rise, films, padding });
 
 const SOURCE: &str = concat!(
     include_str!("../../amount.wgsl"),
     include_str!("../../layer.wgsl"),
+    include_str!("../../contact.wgsl"),
+    include_str!("../../motion/skin.wgsl"),
     include_str!("passes/dry.wgsl"),
 );
 
@@ -243,6 +269,9 @@ pub(super) struct UndoTileParams {
     pub(super) first_cell: u32,
     /// 0 to save the tile, 1 to swap it with the saved one.
     pub(super) swap: u32,
+    /// Number of cells from a saved body to its skin.
+    pub(super) saved_skin: u32,
+    pub(super) padding: [u32; 3],
 }
 
 /// Saves a tile to its slot, or swaps the two.
@@ -253,7 +282,7 @@ pub(super) static UNDO_TILE: Kernel = Kernel {
         include_str!("../../layer.wgsl"),
         include_str!("passes/undo_tile.wgsl"),
     ),
-    parameters: layout!(UndoTileParams { tile, canvas, first_cell, swap }),
+    parameters: layout!(UndoTileParams { tile, canvas, first_cell, swap, saved_skin, padding }),
     structs: &[],
     storage: &[Storage::Write; 4],
 };
@@ -274,7 +303,7 @@ impl UndoTiles {
     ) -> Result<(PaintBuffers, u32), DeviceError> {
         while self.blocks.len() <= slot / TILES_PER_BLOCK {
             let cells = TILES_PER_BLOCK * TILE_CELLS;
-            self.blocks.push(PaintBuffers::empty(device, "the undo history", cells)?);
+            self.blocks.push(PaintBuffers::empty(device, "the undo history", cells, true)?);
         }
         let first_cell = slot % TILES_PER_BLOCK * TILE_CELLS;
         Ok((self.blocks[slot / TILES_PER_BLOCK].clone(), first_cell as u32))

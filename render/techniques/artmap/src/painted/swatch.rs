@@ -126,10 +126,9 @@ impl Workplace<'_> {
             .map(|share: f64| quanta_from_mm(share * paint.underpainting_mm, canvas.cell_mm));
         let width = self.ground.height.width();
         let height = self.ground.height.height();
-        Some(Layer {
-            pigments: Field::filled(width, height, pigments),
-            vehicle: Field::filled(width, height, 0),
-        })
+        let mut layer = Layer::empty(width, height);
+        layer.pigments = Field::filled(width, height, pigments);
+        Some(layer)
     }
 
     /// Mixture of the tone number `at`, and the share of the strokes that this tone has.

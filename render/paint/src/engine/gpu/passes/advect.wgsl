@@ -1,4 +1,4 @@
-// Computes the paint of every cell after advection: its own minus the part that flows out, plus the
+// Computes the films of every cell after advection: its own minus the part that flows out, plus the
 // parts that flow in from its eight neighbours.
 
 @group(0) @binding(0) var<uniform> params: SubStepParams;
@@ -8,18 +8,17 @@
 @group(0) @binding(3) var<storage, read> flow_in: array<vec2<u32>>;
 @group(0) @binding(4) var<storage, read_write> moved: array<Cell>;
 
-fn cell_at(place: vec2<u32>) -> Cell {
-    let i = canvas_index(place);
+// A film of the cell at `place` of the region. `film` is 0 for the body, and else the distance to the
+// skin.
+fn cell_at(place: vec2<u32>, film: u32) -> Cell {
+    let i = canvas_index(place) + film;
     return Cell(pigments[2u * i], pigments[2u * i + 1u], vehicle[i]);
 }
 
-@compute @workgroup_size(8, 8)
-fn advect_cells(@builtin(global_invocation_id) id: vec3<u32>) {
-    if any(id.xy >= params.region.zw) {
-        return;
-    }
+// A film of the cell at `id` after advection.
+fn advected(id: vec2<u32>, film: u32) -> Cell {
     let width = params.region.z;
-    var cell = cell_at(id.xy);
+    var cell = cell_at(id, film);
     let own = flow_in[id.y * width + id.x];
     if own.x != 0u {
         let start = cell;
@@ -32,7 +31,7 @@ fn advect_cells(@builtin(global_invocation_id) id: vec3<u32>) {
         let direction = vec2(i % 3, i / 3) - vec2(1);
         // Left of or above the region this difference wraps to a large number, which lies outside
         // as well.
-        let source = id.xy - vec2<u32>(direction);
+        let source = id - vec2<u32>(direction);
         if i == 4 || any(source >= params.region.zw) {
             continue;
         }
@@ -50,7 +49,19 @@ fn advect_cells(@builtin(global_invocation_id) id: vec3<u32>) {
         } else if direction.x == 0 {
             share = out.in_y;
         }
-        cell = plus(cell, cell_share_of_65536(cell_at(source), share));
+        cell = plus(cell, cell_share_of_65536(cell_at(source, film), share));
     }
-    moved[id.y * width + id.x] = cell;
+    return cell;
+}
+
+@compute @workgroup_size(8, 8)
+fn advect_cells(@builtin(global_invocation_id) id: vec3<u32>) {
+    if any(id.xy >= params.region.zw) {
+        return;
+    }
+    let place = id.y * params.region.z + id.x;
+    moved[place] = advected(id.xy, 0u);
+    if params.mask.z != 0u {
+        moved[place + region_skin()] = advected(id.xy, canvas_skin());
+    }
 }

@@ -6,7 +6,8 @@ struct BakeParams {
     ground: array<vec4<f32>, 2>,
     canvas: vec2<u32>,
     first_tile: u32,
-    padding: u32,
+    // Index of the film's first cell in its buffer.
+    first_cell: u32,
 }
 
 @group(0) @binding(0) var<uniform> params: BakeParams;
@@ -41,7 +42,8 @@ struct BakedCell {
 fn baked_cell(at: vec2<u32>) -> BakedCell {
     let inside = min(at, params.canvas - vec2(1u));
     let i = inside.y * params.canvas.x + inside.x;
-    let paint = Cell(pigments[2u * i], pigments[2u * i + 1u], vehicle[i]);
+    let k = params.first_cell + i;
+    let paint = Cell(pigments[2u * k], pigments[2u * k + 1u], vehicle[k]);
     let backing = Nodes(baked[2u * i], baked[2u * i + 1u]);
     let painted = all(at < params.canvas) && volume(paint) > 0u;
     return BakedCell(i, painted, composite(paint.low, paint.high, backing));

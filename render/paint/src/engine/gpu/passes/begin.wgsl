@@ -10,7 +10,8 @@
 @group(0) @binding(5) var<storage, read> brush_pigments: array<vec4<u32>>;
 // The vehicle of all cells, then the mean of each cell's hair.
 @group(0) @binding(6) var<storage, read> brush_vehicle: array<u32>;
-// x: penetration, y: volume, z: top, w: coat.
+// x: penetration, y: volume, z: top, w: coat, and in its highest bit whether the cell had wet paint
+// before the stroke.
 @group(0) @binding(7) var<storage, read_write> depths: array<vec4<i32>>;
 @group(0) @binding(8) var<storage, read_write> above: array<Cell>;
 
@@ -38,6 +39,15 @@ fn covered(i: u32) -> bool {
     return ((word >> (i % 32u)) & 1u) == 1u;
 }
 
+// Whether a cell of the canvas had wet paint before the stroke.
+fn painted_before(at: vec2<u32>) -> bool {
+    let blocks = (params.canvas.x + 7u) / 8u;
+    let block = at.y / 8u * blocks + at.x / 8u;
+    let bit = at.y % 8u * 8u + at.x % 8u;
+    let word = bitcast<u32>(floor_height[params.mask.y + 2u * block + bit / 32u]);
+    return ((word >> (bit % 32u)) & 1u) == 1u;
+}
+
 @compute @workgroup_size(8, 8)
 fn begin_cells(@builtin(global_invocation_id) id: vec3<u32>) {
     if any(id.xy >= params.region.zw) {
@@ -45,7 +55,13 @@ fn begin_cells(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let place = id.y * params.region.z + id.x;
     let i = canvas_index(id.xy);
-    let wet = volume(Cell(pigments[2u * i], pigments[2u * i + 1u], vehicle[i]));
+    var wet = volume(Cell(pigments[2u * i], pigments[2u * i + 1u], vehicle[i]));
+    var layered = 0u;
+    if params.mask.z != 0u {
+        let k = i + canvas_skin();
+        wet += volume(Cell(pigments[2u * k], pigments[2u * k + 1u], vehicle[k]));
+        layered = select(0u, 0x80000000u, painted_before(params.region.xy + id.xy));
+    }
     var depth = NO_CONTACT;
     var coat_quanta = 0u;
     let is_covered = covered(i);
@@ -66,5 +82,5 @@ fn begin_cells(@builtin(global_invocation_id) id: vec3<u32>) {
     let top = floor_height[i] + volume_quanta;
     // Nothing flows to or from a crowded column, so we treat a covered one in this way.
     let seen = select(volume_quanta, bitcast<i32>(MAX_COLUMN), is_covered);
-    depths[place] = vec4(depth, seen, top, bitcast<i32>(coat_quanta));
+    depths[place] = vec4(depth, seen, top, bitcast<i32>(coat_quanta | layered));
 }

@@ -3,7 +3,8 @@
 struct RaiseParams {
     canvas: vec2<u32>,
     first_tile: u32,
-    padding: u32,
+    // 1 if a cell may have a skin.
+    skin: u32,
 }
 
 @group(0) @binding(0) var<uniform> params: RaiseParams;
@@ -23,6 +24,10 @@ fn raise_tiles(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let i = at.y * params.canvas.x + at.x;
-    let wet = Cell(pigments[2u * i], pigments[2u * i + 1u], vehicle[i]);
-    tops[i] = floor_height[i] + bitcast<i32>(volume(wet));
+    var wet = volume(Cell(pigments[2u * i], pigments[2u * i + 1u], vehicle[i]));
+    if params.skin != 0u {
+        let k = i + params.canvas.x * params.canvas.y;
+        wet += volume(Cell(pigments[2u * k], pigments[2u * k + 1u], vehicle[k]));
+    }
+    tops[i] = floor_height[i] + bitcast<i32>(wet);
 }

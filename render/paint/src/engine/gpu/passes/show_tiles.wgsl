@@ -8,7 +8,8 @@ struct ShowParams {
     lamp: LampParams,
     canvas: vec2<u32>,
     first_tile: u32,
-    padding: u32,
+    // 1 if a cell of the wet layer may have a skin.
+    skin: u32,
 }
 
 @group(0) @binding(0) var<uniform> params: ShowParams;
@@ -43,9 +44,15 @@ fn level_cell(at: vec2<u32>) -> LevelCell {
     let inside = min(at, params.canvas - vec2(1u));
     let i = inside.y * params.canvas.x + inside.x;
     let wet = Cell(pigments[2u * i], pigments[2u * i + 1u], vehicle[i]);
-    let backing = Nodes(baked[2u * i], baked[2u * i + 1u]);
-    let rgb = color(composite(wet.low, wet.high, backing));
-    return LevelCell(at, i, select(material[i], 0u, volume(wet) > 0u), rgb);
+    var internal = composite(wet.low, wet.high, Nodes(baked[2u * i], baked[2u * i + 1u]));
+    var is_wet = volume(wet) > 0u;
+    if params.skin != 0u {
+        let k = i + params.canvas.x * params.canvas.y;
+        let above = Cell(pigments[2u * k], pigments[2u * k + 1u], vehicle[k]);
+        internal = composite(above.low, above.high, internal);
+        is_wet = is_wet || volume(above) > 0u;
+    }
+    return LevelCell(at, i, select(material[i], 0u, is_wet), color(internal));
 }
 
 // `column` holds the heights of the cell above, of the cell, and of the cell below.

@@ -12,8 +12,19 @@ struct SubStepParams {
     // Index of the contact's first touch in the batch.
     first_touch: u32,
     brush_cells: u32,
-    // x: index of the mask's first word in the buffer of the floor, 0 without a mask.
+    // x: index of the mask's first word in the buffer of the floor, 0 without a mask. y: index of the
+    // first block's painted cells there. z: 1 if a cell of the region may have a skin.
     mask: vec4<u32>,
+}
+
+// Distance from the body of a cell of the canvas to its skin, in cells.
+fn canvas_skin() -> u32 {
+    return params.canvas.x * params.canvas.y;
+}
+
+// Distance from the body of a cell of the region to its skin, in cells.
+fn region_skin() -> u32 {
+    return params.region.z * params.region.w;
 }
 
 fn canvas_index(place: vec2<u32>) -> u32 {

@@ -4,7 +4,7 @@
 
 @group(0) @binding(0) var<uniform> params: SubStepParams;
 @group(0) @binding(1) var<storage, read> touches: array<Touch>;
-// x: penetration, y: volume, z: top, w: coat, all from before advection.
+// x: penetration, y: volume, z: top, w: coat and a bit, all from before advection. See begin.wgsl.
 @group(0) @binding(2) var<storage, read> depths: array<vec4<i32>>;
 @group(0) @binding(3) var<storage, read> moved: array<Cell>;
 // The head's cell above, at the start of the sub-step.
@@ -40,7 +40,11 @@ fn transfer_cells(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let place = id.y * params.region.z + id.x;
-    var cell = moved[place];
+    var body = moved[place];
+    var skin = Cell();
+    if params.mask.z != 0u {
+        skin = moved[place + region_skin()];
+    }
     let here = depths[place];
     if here.x != NO_CONTACT {
         let touch = touches[touch_index(id.xy)];
@@ -49,20 +53,41 @@ fn transfer_cells(@builtin(global_invocation_id) id: vec3<u32>) {
             params.rates,
             touch,
             here.x,
-            bitcast<u32>(here.w),
-            volume(cell),
+            bitcast<u32>(here.w) & 0x7fffffffu,
+            volume(body),
+            volume(skin),
             volume(brush),
             leaving(touch, params.region.xy + id.xy, params.canvas),
         );
-        if (change.down | change.up) != 0u {
+        if (change.down | change.up_body | change.up_skin) != 0u {
             let laid = cell_share_of_65536(brush, change.down);
-            let taken = cell_share_of_65536(cell, change.up);
-            cell = plus(minus(cell, taken), laid);
-            gain_cell(touch.brush_cell, minus(taken, laid));
+            let of_body = cell_share_of_65536(body, change.up_body);
+            let of_skin = cell_share_of_65536(skin, change.up_skin);
+            body = minus(body, of_body);
+            skin = minus(skin, of_skin);
+            if here.w < 0 {
+                skin = plus(skin, laid);
+            } else {
+                body = plus(body, laid);
+            }
+            gain_cell(touch.brush_cell, minus(plus(of_body, of_skin), laid));
+        }
+        let moves = stirred(params.rates, touch, here.x, volume(body), volume(skin));
+        if (moves.x | moves.y) != 0u {
+            let risen = cell_share_of_65536(body, moves.x);
+            let sunk = cell_share_of_65536(skin, moves.y);
+            body = plus(minus(body, risen), sunk);
+            skin = plus(minus(skin, sunk), risen);
         }
     }
     let i = canvas_index(id.xy);
-    pigments[2u * i] = cell.low;
-    pigments[2u * i + 1u] = cell.high;
-    vehicle[i] = cell.vehicle;
+    pigments[2u * i] = body.low;
+    pigments[2u * i + 1u] = body.high;
+    vehicle[i] = body.vehicle;
+    if params.mask.z != 0u {
+        let k = i + canvas_skin();
+        pigments[2u * k] = skin.low;
+        pigments[2u * k + 1u] = skin.high;
+        vehicle[k] = skin.vehicle;
+    }
 }
