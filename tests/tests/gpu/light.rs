@@ -16,7 +16,8 @@ use spectra::optics::{Layer as Film, Specular, Surface};
 /// the largest error is 4e-7.
 const NEAR: f64 = 3e-6;
 
-/// Tolerance for six films with relief and gloss. On lavapipe the largest error is 1.9e-6.
+/// Tolerance for three layers of two films with relief and gloss. For three layers of one film the largest error on
+/// lavapipe is 1.9e-6.
 const NEAR_STACK: f64 = 2e-5;
 
 const NO_LAYER: LayerOptics =

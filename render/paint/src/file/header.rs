@@ -93,7 +93,7 @@ pub(super) struct LayerHeader {
     pub(super) part: String,
     pub(super) opacity: f64,
     pub(super) pigments: Vec<PigmentChannel>,
-    /// Part with the paint of the layer's skin, if it has one. Its channels are those of `part`.
+    /// Part with the paint of the skin, if the layer has one. It has the same channels as `part`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) skin: Option<String>,
 }

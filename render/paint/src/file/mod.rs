@@ -11,7 +11,7 @@
 //! | --- | --- |
 //! | `base` | `height` of the ground above the plane of the canvas |
 //! | `wet`, `dry.000`, `dry.001` .. (lowest first) | one channel per pigment: height of its paint. `vehicle`. `thickness`: their sum, for other programs, not read |
-//! | `wet.skin`, `dry.000.skin` .. | the same channels of the skin that lies over the paint of a layer, only of layers with one |
+//! | `wet.skin`, `dry.000.skin` .. | the skin over the paint of this layer, in the same channels. A layer without a skin has no such part |
 //!
 //! A file without a skin has version 1, which earlier programs read too.
 //!

@@ -1,14 +1,14 @@
 //! The two wet films of a cell: a body, and a skin that a brush laid over it.
 //!
 //! A brush that lays paint where there was wet paint before the stroke lays it on the skin. So a light
-//! over wet dark stays light. The hair stirs skin and body into each other by the way that it goes, and
+//! over wet dark stays light. With each mm of its way, the hair stirs skin and body into each other. It
 //! takes paint from the skin first. Layers of wet paint that exchange with the brush and with each other:
 //! Stuyck, Da, Hadap and Dutre 2017; Chu, Baxter, Wei and Govindaraju 2010, section 4.
 //!
 //! A cell has no third film. When a stroke begins, we settle the films of the tiles that it reaches
-//! ([`settling`]): a skin over nothing, or over a body of the same mixture, joins the body, which does
-//! not show. Of any other skin the part below [`SKIN_MM`] joins the body, which does not show either
-//! where that much hides. The stroke then lays its paint into what is left of the skin.
+//! ([`settling`]). A skin over bare ground, or over a body of the same mixture, becomes body. You do not
+//! see this. Of any other skin the upper [`SKIN_MM`] stay and the rest becomes body. You do not see this
+//! either if the part that stays hides the body. The stroke then lays its paint into the skin that stayed.
 
 use crate::amount::{ratio_of_65536, share_of_256, share_of_65536};
 use crate::contact::{ExchangeRates, Touch};

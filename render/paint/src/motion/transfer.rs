@@ -27,9 +27,11 @@ pub struct Exchange {
 /// Computes the transfer of one sub-step.
 ///
 /// `penetration` (nothing moves at [`NO_CONTACT`](super::press::NO_CONTACT)) and `coat` are the
-/// values at the start of the sub-step, in quanta. The volumes are those of body and skin of the
-/// canvas's cell and of the head's cell now, in quanta. The head takes from the skin first. `leaving` is the velocity of the head over the edge of the canvas, in 1/256 cell
-/// a sub-step. Paint that would leave the canvas at half of this velocity goes onto the head.
+/// values at the start of the sub-step, in quanta. `body`, `skin` and `brush_volume` are the heights in
+/// quanta of the two films of the canvas's cell and of the paint in the head's cell, as they are now.
+/// The head takes paint from the skin first. `leaving` is the velocity of the head over the edge of the
+/// canvas, in 1/256 cell a sub-step. Paint that would leave the canvas at half of this velocity goes
+/// onto the head.
 #[inline(always)]
 #[must_use]
 pub fn exchange(

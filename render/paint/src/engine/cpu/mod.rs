@@ -2,9 +2,9 @@
 //!
 //! The result does not depend on the number of threads. This takes 44 bytes of memory per cell of
 //! the canvas: 36 for wet paint, 4 for its volume, 4 for the floor. The system takes the first 40
-//! only where there was paint. Where wet paint has a skin, it takes 40 more. The ground takes 4 more once you dry paint. Each view that you
-//! render takes 4, and 32 for each of its cells in tiles with dry paint. A dry layer takes 36 bytes
-//! for each cell of its painted tiles.
+//! only where there was paint. Where wet paint has a skin, it takes 40 more. The ground takes 4 more
+//! once you dry paint. Each view that you render takes 4, and 32 for each of its cells in tiles with
+//! dry paint. A dry layer takes 36 bytes for each cell of its painted tiles, 72 with a skin.
 
 mod columns;
 mod penetration;

@@ -430,7 +430,8 @@ pub(super) fn joined(a: &Range<usize>, b: &Range<usize>) -> Range<usize> {
 pub(super) struct Bed {
     /// Height of each block, in units of 256 quanta.
     blocks: Field<i32>,
-    /// Whether there was wet paint on each cell of each block, a byte a row, from the lowest bit on.
+    /// For each block, a bit for each cell: 1 if there was wet paint. Each row of a block is a byte, its
+    /// left cell the lowest bit.
     painted: Field<u64>,
 }
 

@@ -328,7 +328,7 @@ impl Band {
         let columns = step.penetration.in_contact(y);
         let touches = step.touches(y);
         self.changed.extend(touches.iter().map(|touch| touch.brush_cell));
-        // A skin is laid where there was wet paint before the stroke.
+        // The head lays a skin where there was wet paint before the stroke.
         self.painted.resize(columns.len(), false);
         let layered =
             row.skin.is_some() && step.bed.painted_row((columns.start, y), &mut self.painted);
@@ -444,13 +444,14 @@ pub(super) struct Exchanges {
     pub(super) found: Vec<Exchange>,
     brush_volumes: Vec<u32>,
     leaving: Vec<u32>,
-    /// Zeros: the skins of a row without any.
+    /// Heights of the skins of a row without skins: zeros.
     no_skin: Vec<u32>,
 }
 
 impl Exchanges {
-    /// Computes the transfers of the cells in contact of row `y`. `volumes` holds the heights of
-    /// its columns in quanta, `skin` those of their skins.
+    /// Computes the transfers of the cells in contact of row `y`. `volumes` holds the heights of its
+    /// columns in quanta, both films together. `skin` holds the heights of the skins alone, or is `None`
+    /// if there are none.
     #[inline(always)]
     pub(super) fn of_row(
         &mut self,

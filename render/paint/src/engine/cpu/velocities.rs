@@ -238,8 +238,9 @@ impl Inflow {
         !self.flows.is_empty()
     }
 
-    /// Takes the paint of a film that leaves the columns of `row` and adds it to the cells that it
-    /// reaches. The first column lies at column `x` of row `y`, which is neither the first row nor the last.
+    /// Takes the paint that leaves the columns of `row`, which are cells of one film, and adds it to the
+    /// cells that it reaches. The first column lies at column `x` of row `y`, which is neither the first
+    /// row nor the last.
     #[inline(always)]
     pub(super) fn scatter(
         &mut self,
@@ -327,8 +328,8 @@ impl Inflow {
         }
     }
 
-    /// Moves the paint at `columns` of row `y` into the film `row`, which has as many cells. Sets its
-    /// volumes to those of the film.
+    /// Moves the paint at `columns` of row `y` into a film. `row` holds these cells of the film. Afterwards
+    /// its volumes count the paint of this film alone.
     #[inline(always)]
     pub(super) fn pour(&mut self, columns: Range<usize>, y: usize, row: &mut Planes<'_>) {
         let first = y * self.width;

@@ -169,8 +169,8 @@ pub(super) fn mask_start(canvas: Rect) -> usize {
     canvas.width * canvas.height + blocks
 }
 
-/// Index in the buffer of the floor from which on two words hold which cells of each block had wet paint
-/// before the stroke, a byte for each row.
+/// Index in the buffer of the floor at which the painted cells begin. Each block has two words with a bit
+/// for each cell: 1 if the cell had wet paint before the stroke. Each row of the block is a byte.
 pub(super) fn painted_start(canvas: Rect) -> usize {
     mask_start(canvas) + (canvas.width * canvas.height).div_ceil(32)
 }
