@@ -1,6 +1,6 @@
 #!/bin/sh
 # Paints the scripts in paintings/ and writes landscape.jpg, landscape-detail.jpg,
-# colour-study.jpg and glaze.jpg into docs/images/.
+# colour-study.jpg, alla-prima.jpg and glaze.jpg into docs/images/.
 # Needs `impasto` on the path (or IMPASTO=its path) and Python with Pillow (PYTHON=its path).
 # Run it from the root of the repository: sh docs/images/pictures.sh
 set -eu
@@ -9,7 +9,7 @@ impasto=${IMPASTO:-impasto}
 scratch=$(mktemp -d)
 trap 'rm -r "$scratch"' EXIT
 
-for script in landscape glaze colour-study; do
+for script in landscape glaze colour-study still-life; do
     "$impasto" paint "paintings/$script.json" --backend cpu \
         --picture "$scratch/$script.png" --output "$scratch/$script.exr"
 done
@@ -46,6 +46,7 @@ keep(landscape.resize((900, 630), Image.Resampling.LANCZOS), "landscape")
 keep(landscape.crop((1860, 990, 2880, 1590)), "landscape-detail")
 
 keep(opened("colour-study").resize((900, 600), Image.Resampling.LANCZOS), "colour-study")
+keep(opened("still-life").resize((900, 675), Image.Resampling.LANCZOS), "alla-prima")
 
 thirds = Image.new("RGB", (1200, 266), "white")
 for place, name in enumerate(["glaze", "lamp", "side"]):

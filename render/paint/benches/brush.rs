@@ -38,6 +38,7 @@ fn pose(step: usize, pressure: f64) -> Pose {
         tilt_x_deg: 20.0,
         tilt_y_deg: 10.0,
         twist_deg: 90.0,
+        speed_mm_s: 0.0,
     }
 }
 

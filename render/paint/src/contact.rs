@@ -132,8 +132,13 @@ pub struct ExchangeRates {
     /// Share of the skin and of the body that the hair stirs into each other, relative to the smaller
     /// of the skin and the part of the body that the hair reaches.
     pub shear: u32,
+    /// Paint in quanta that the hair keeps, for hair with the mean coat. Hair that has less lays nothing.
+    pub held: u32,
+    /// Height in quanta up to which the paint from before the stroke bears a blade that came loaded. A thick
+    /// coat is borne as high without this.
+    pub carried: u32,
     /// Unused. Pads the uniforms of the shaders.
-    pub padding: [u32; 3],
+    pub padding: u32,
 }
 
 /// The head of a brush over the canvas during one sub-step.

@@ -17,9 +17,9 @@ struct ExchangeRates {
     drag: u32,
     bearing: u32,
     shear: u32,
+    held: u32,
+    carried: u32,
     padding: u32,
-    padding_b: u32,
-    padding_c: u32,
 }
 
 // Unpacks two 16-bit numbers in two's complement: low half, high half.

@@ -49,20 +49,29 @@ pub struct Pose {
     pub tilt_y_deg: f64,
     /// Rotation about the handle in degrees, clockwise seen from above.
     pub twist_deg: f64,
+    /// Speed of the hand in mm/s. 0 if it rests or is unknown.
+    pub speed_mm_s: f64,
 }
 
 impl Pose {
     /// Whether all numbers are finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
-        let numbers =
-            [self.x, self.y, self.pressure, self.tilt_x_deg, self.tilt_y_deg, self.twist_deg];
+        let numbers = [
+            self.x,
+            self.y,
+            self.pressure,
+            self.tilt_x_deg,
+            self.tilt_y_deg,
+            self.twist_deg,
+            self.speed_mm_s,
+        ];
         numbers.iter().all(|number| number.is_finite())
     }
 }
 
 impl Sample {
-    /// Converts the position to cells that are `cell_mm` wide.
+    /// Converts the position to cells that are `cell_mm` wide. One sample alone has no speed.
     #[must_use]
     pub fn pose(&self, cell_mm: f64) -> Pose {
         Pose {
@@ -72,6 +81,7 @@ impl Sample {
             tilt_x_deg: self.tilt_x_deg,
             tilt_y_deg: self.tilt_y_deg,
             twist_deg: self.twist_deg,
+            speed_mm_s: 0.0,
         }
     }
 }

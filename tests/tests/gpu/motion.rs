@@ -289,7 +289,9 @@ pub(crate) fn contact(
         drag: share() >> 8,
         bearing: share(),
         shear: share(),
-        padding: [0; 3],
+        held: 8 * share(),
+        carried: 8 * share(),
+        padding: 0,
     };
     Contact { rect, touches, rates, wicking }
 }

@@ -360,6 +360,31 @@ fn linen_has_as_many_threads_as_it_says() {
 }
 
 #[test]
+fn threads_of_uneven_linen_differ_in_height_and_old_linen_stays() {
+    /// Deviation of the crests of all threads along y, as a share of their mean.
+    fn crests(settings: &str) -> f64 {
+        let json = format!(r#"{{"kind":"linen","seed":5,"threads_per_cm":10{settings}}}"#);
+        let cloth = spec(&json).build(1000, 400, 0.05, &oils()).unwrap().height;
+        let crests: Vec<f64> = (0..50)
+            .map(|thread: usize| {
+                let columns = 20 * thread..20 * thread + 20;
+                let cells = columns.flat_map(|x| (0..400).map(move |y| (x, y)));
+                f64::from(cells.map(|place| cloth[place]).max().unwrap())
+            })
+            .collect();
+        let mean = crests.iter().sum::<f64>() / 50.0;
+        let squares = crests.iter().map(|crest| (crest - mean).powi(2)).sum::<f64>();
+        (squares / 50.0).sqrt() / mean
+    }
+    let even = crests("");
+    assert_eq!(even, crests(r#","unevenness":0"#));
+    let uneven = crests(r#","unevenness":0.5"#);
+    assert!(uneven > 2.0 * even && uneven < 0.4, "{even}, then {uneven}");
+    let refused = spec(r#"{"kind":"linen","unevenness":1.5}"#).build(9, 9, 0.1, &oils());
+    assert!(refused.unwrap_err().to_string().contains("unevenness"));
+}
+
+#[test]
 fn a_picture_gives_its_relief_at_eight_and_sixteen_bits() {
     let folder = tempfile::tempdir().unwrap();
     let eight = image::GrayImage::from_fn(4, 2, |x, _| image::Luma([(x * 85) as u8]));

@@ -57,7 +57,7 @@ fn yellow_and_blue_mixed_wet_on_the_canvas_go_through_green() {
     let ends = ends[0].min(ends[1]);
     let both = mixed(|painting| {
         lay(painting, YELLOW, 0.6);
-        lay(painting, BLUE, 0.02);
+        lay(painting, BLUE, 0.03);
     });
     // Additive mixing would give an a* between the two pigments, but never below both.
     let green = both

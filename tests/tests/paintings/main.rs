@@ -14,6 +14,9 @@ mod glaze;
 #[path = "../../../render/paint/examples/paintings/landscape.rs"]
 mod landscape;
 
+#[path = "../../../render/paint/examples/paintings/still_life.rs"]
+mod still_life;
+
 use std::convert::Infallible;
 use std::ops::ControlFlow;
 
@@ -58,6 +61,7 @@ fn every_script_is_what_its_program_makes() {
         ("colour-study", color_study::script()),
         ("glaze", glaze::script()),
         ("landscape", landscape::script()),
+        ("still-life", still_life::script()),
     ] {
         let made = script.to_json().unwrap();
         assert!(made == shipped(name), "{name}: run the example `paintings` again");
@@ -69,7 +73,7 @@ fn every_script_is_what_its_program_makes() {
 
 #[test]
 fn the_long_ones_begin_well() {
-    for name in ["glaze", "landscape"] {
+    for name in ["glaze", "landscape", "still-life"] {
         let script = StrokeScript::from_json(name, shipped(name).as_bytes()).unwrap();
         let (report, mut session) = painted(&begun(&script, 60));
         assert_eq!((report.actions, report.idle), (60, 0), "{name}");

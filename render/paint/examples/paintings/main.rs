@@ -5,6 +5,7 @@ mod script_builder;
 mod color_study;
 mod glaze;
 mod landscape;
+mod still_life;
 
 use std::path::PathBuf;
 
@@ -14,6 +15,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ("colour-study", color_study::script()),
         ("glaze", glaze::script()),
         ("landscape", landscape::script()),
+        ("still-life", still_life::script()),
     ] {
         std::fs::write(folder.join(format!("{name}.json")), script.to_json()?)?;
     }

@@ -42,8 +42,6 @@ const ALONG: usize = 5;
 /// multiply the last three by 65536.
 #[derive(Debug, Clone)]
 pub(super) struct Footprint {
-    /// Whether each facet has hair. Empty if all have.
-    hair: Vec<bool>,
     facets: Vec<Facet>,
     /// Number of canvas cells under each paint cell.
     sharers: Vec<u16>,
@@ -60,12 +58,15 @@ struct Facet {
     cell: u32,
 }
 
+/// Height by which hair bends up over a row of paint cells, in their length (chosen by eye).
+const BENDS: f32 = 0.4;
+
 impl Footprint {
-    /// A footprint of a head of `width` x `height` paint cells with hair on these facets.
-    pub(super) fn new(width: usize, height: usize, hair: Vec<bool>) -> Self {
+    /// A footprint of a head of `width` x `height` paint cells.
+    pub(super) fn new(width: usize, height: usize) -> Self {
         let sharers = vec![0; width * height];
         let width = width as u32;
-        Self { hair, facets: Vec::new(), sharers, spans: Vec::new(), width }
+        Self { facets: Vec::new(), sharers, spans: Vec::new(), width }
     }
 
     /// Fills `out` with the part of `surface` below `ceiling` (in quanta) and within the cells of
@@ -94,6 +95,7 @@ impl Footprint {
         let around = cells_around as f32 * ONE;
         let along = cells_along as f32 * ONE;
         let most = (cells_around as i32 - 1, cells_along as i32 - 1);
+        let steep = (BENDS * QUANTA_PER_CELL as f32) as i32;
         for facet in &self.facets {
             let [a, b, c, d] = facet.corners.map(|i| &surface.vertices[i as usize]);
             let corners = [
@@ -110,6 +112,8 @@ impl Footprint {
                 cell: facet.cell,
                 row: self.width,
                 most,
+                first_row: (facet.cell / self.width) as i32,
+                steep,
                 locks: &locks[facet.cell as usize % locks.len()..],
             };
             canvas.triangle(&corners[0], &corners[1], &corners[2]);
@@ -137,9 +141,6 @@ impl Footprint {
                     continue;
                 }
                 for column in first..first + span {
-                    if self.hair.get(row * around + column) == Some(&false) {
-                        continue;
-                    }
                     let next = if column + 1 < around { column + 1 } else { 0 };
                     let corners = [
                         row * around + column,
@@ -255,6 +256,9 @@ struct Canvas<'a> {
     row: u32,
     /// Index of the facet's last paint cell, around and along.
     most: (i32, i32),
+    first_row: i32,
+    /// Height in quanta by which hair bends up from one row of paint cells to the next above it.
+    steep: i32,
     /// Locks from the first column of the facet on.
     locks: &'a [Lock],
 }
@@ -314,9 +318,11 @@ impl Canvas<'_> {
             for touch in row {
                 let around = (at[AROUND] >> 16).max(0).min(self.most.0) as u32;
                 let lock = self.locks[around as usize];
-                let height = at[HEIGHT] + lock.recess;
+                let along = (at[ALONG] >> 16).max(0).min(self.most.1);
+                let bent = (lock.front - self.first_row - along).max(0) * self.steep;
+                let height = at[HEIGHT] + lock.recess + bent;
                 if height < touch.height {
-                    let along = (at[ALONG] >> 16).max(0).min(self.most.1) as u32;
+                    let along = along as u32;
                     touch.height = height;
                     touch.brush_cell = self.cell + along * self.row + around;
                     touch.velocity = (at[X] as u32) >> 16 | (at[Y] as u32) & 0xffff_0000;
@@ -427,10 +433,10 @@ pub(super) struct Imprint {
 }
 
 impl Imprint {
-    /// Buffers for a head with this surface. If `hair` is not empty, only these facets have hair.
-    pub(super) fn new(surface: LimitSurface, hair: Vec<bool>, cell_mm: f64) -> Self {
+    /// Buffers for a head with this surface.
+    pub(super) fn new(surface: LimitSurface, cell_mm: f64) -> Self {
         let (around, along) = surface.cells();
-        let footprint = Footprint::new(around, along, hair);
+        let footprint = Footprint::new(around, along);
         Self { surface, footprint, cell_mm, ceiling: 0.0, extent: None }
     }
 
@@ -542,6 +548,10 @@ fn finished(vertex: &Point, relief: f32, grasp: f32, pressed: f32) -> Point {
     let &[x, y, z, _, dx, dy, dz, _] = vertex;
     let height = greater(z, relief);
     let speed = greater((dx * dx + dy * dy + dz * dz).sqrt(), pressed);
+    // In a sub-step paint moves by a cell at most.
+    let too_fast = greater((dx * dx + dy * dy).sqrt(), 1.0);
+    let dx = dx / too_fast;
+    let dy = dy / too_fast;
     let t = ((speed - 0.2) * 10.0).clamp(0.0, 1.0);
     [
         x,

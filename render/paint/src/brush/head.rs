@@ -38,6 +38,8 @@ pub struct Head {
     pub(super) imprint: Imprint,
     pub(super) locks: Locks,
     pub(super) sides: Sides,
+    /// Height in mm of the paint with which a blade began its stroke.
+    bank_mm: f64,
     /// Number of sub-steps since the head was set down.
     sub_step: u32,
     last: Option<Pose>,
@@ -75,7 +77,6 @@ impl Head {
         };
         let surface = LimitSurface::new(columns(of.spines), perimeter, spines.length());
         let (around, along) = surface.cells();
-        let hair = if of.gaps { tufts(&surface, of.spines) } else { Vec::new() };
         let area = f64::from(perimeter) * f64::from(spines.length());
         let column_mm = f64::from(perimeter) * cell_mm / around as f64;
         Ok(Self {
@@ -84,9 +85,10 @@ impl Head {
             cell_mm,
             net: Net::new(&spines),
             spines,
-            imprint: Imprint::new(surface, hair, cell_mm),
-            locks: Locks::new(0, around, column_mm, (0.1 * of.recess, of.variation), cell_mm),
+            imprint: Imprint::new(surface, cell_mm),
+            locks: Locks::new(0, (around, along), column_mm, of, (size_mm, cell_mm)),
             sides: Sides::default(),
+            bank_mm: 0.0,
             sub_step: 0,
             last: None,
             paint_cell_area: area / (around * along) as f64,
@@ -133,6 +135,13 @@ impl Head {
     pub fn rows_with_paint(&self) -> Range<usize> {
         let rows = self.paint_grid().1;
         rows - rows_with_paint(self.spines.of, rows, self.cell_mm)..rows
+    }
+
+    /// Prepares a stroke. A blade begins it with a mean of `bank_mm` mm of paint. The locks of hair land and
+    /// leave `one_by_one`, or all at once.
+    pub(crate) fn begin(&mut self, bank_mm: f64, one_by_one: bool) {
+        self.bank_mm = bank_mm;
+        self.locks.land_one_by_one(one_by_one);
     }
 
     pub(super) fn sub_step(&self) -> u32 {
@@ -271,8 +280,17 @@ impl Head {
             pressed: (grip.pressure - before).abs() * self.spines.width,
             reach: self.spines.width + grip.pressure * self.spines.length(),
         };
-        out.rates = rates(self.spines.of, grip.pressure, self.cell_mm, self.paint_cell_area);
-        out.rates.drag = (f64::from(out.rates.drag) * (2.0 * self.travelled(pose)).min(1.0)) as u32;
+        out.rates = rates(
+            self.spines.of,
+            (grip.pressure, pose.speed_mm_s),
+            self.bank_mm,
+            self.cell_mm,
+            self.paint_cell_area,
+        );
+        // Hair that you lift lets the paint go.
+        let share = f64::from(self.locks.pressed());
+        let grasp = share * share * (2.0 * self.travelled(pose)).min(1.0);
+        out.rates.drag = (f64::from(out.rates.drag) * grasp) as u32;
         out.wicking = wicking(self.spines.of, self.sub_step, self.paint_grid().1, self.cell_mm);
         self.sub_step += 1;
         self.last = Some(*pose);
@@ -286,28 +304,4 @@ impl Head {
         let turned = (pose.twist_deg - last.twist_deg).to_radians().abs();
         libm::hypot(pose.x - last.x, pose.y - last.y) + 0.5 * f64::from(self.spines.width) * turned
     }
-}
-
-/// Whether each facet of a fan has hair: all near the ferrule, only tufts around the spines near
-/// the tip. A small fan, whose facets are no finer than its tufts, has tufts around pairs of
-/// spines.
-fn tufts(surface: &LimitSurface, spines: usize) -> Vec<bool> {
-    let (around, along) = surface.facets();
-    let in_span = surface.facets_of_span();
-    (0..around * along)
-        .map(|i: usize| {
-            let column = i % around;
-            let down = (i / around) as f32 / along as f32;
-            // Columns of the net lie on spines, so a gap is between two columns.
-            let span = column / in_span;
-            if span == 0 || span == spines || span == spines + 1 || span == 2 * spines + 1 {
-                return true;
-            }
-            if in_span < 3 {
-                return span.is_multiple_of(2) || down < 0.6;
-            }
-            let off = ((column % in_span) as f32 + 0.5) / in_span as f32 - 0.5;
-            off.abs() >= 0.35 * ((down - 0.45) / 0.55).max(0.0)
-        })
-        .collect()
 }

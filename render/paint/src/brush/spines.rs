@@ -591,8 +591,15 @@ mod tests {
     use super::super::HeadShape;
     use super::*;
 
-    const POSE: Pose =
-        Pose { x: 3.25, y: -1.5, pressure: 0.5, tilt_x_deg: 0.0, tilt_y_deg: 0.0, twist_deg: 0.0 };
+    const POSE: Pose = Pose {
+        x: 3.25,
+        y: -1.5,
+        pressure: 0.5,
+        tilt_x_deg: 0.0,
+        tilt_y_deg: 0.0,
+        twist_deg: 0.0,
+        speed_mm_s: 0.0,
+    };
 
     #[test]
     fn axes_stand_upright_on_each_other_whatever_the_pose() {

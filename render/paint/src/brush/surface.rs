@@ -465,6 +465,7 @@ mod tests {
         tilt_x_deg: 20.0,
         tilt_y_deg: 0.0,
         twist_deg: 90.0,
+        speed_mm_s: 0.0,
     };
 
     const BOUNDS: Rect = Rect { x: 0, y: 0, width: 400, height: 300 };

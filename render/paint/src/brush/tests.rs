@@ -9,8 +9,15 @@ use crate::pose::Pose;
 use graphics::tile::Rect;
 
 const BOUNDS: Rect = Rect { x: 0, y: 0, width: 320, height: 240 };
-const POSE: Pose =
-    Pose { x: 160.4, y: 120.4, pressure: 0.5, tilt_x_deg: 0.0, tilt_y_deg: 0.0, twist_deg: 0.0 };
+const POSE: Pose = Pose {
+    x: 160.4,
+    y: 120.4,
+    pressure: 0.5,
+    tilt_x_deg: 0.0,
+    tilt_y_deg: 0.0,
+    twist_deg: 0.0,
+    speed_mm_s: 0.0,
+};
 
 fn head(shape: HeadShape) -> Head {
     Head::new(shape, 4.0, 0.1).unwrap()
@@ -349,6 +356,7 @@ fn heads_stay_finite_and_alike_in_hostile_hands() {
                 tilt_x_deg: number(200.0, 0.0),
                 tilt_y_deg: number(200.0, 0.0),
                 twist_deg: number(1000.0, 0.0),
+                speed_mm_s: number(4000.0, 1000.0),
             };
             one.advance(&pose, &relief, BOUNDS, &mut contact);
             two.advance(&pose, &relief, BOUNDS, &mut again);

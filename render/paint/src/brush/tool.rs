@@ -211,7 +211,9 @@ fn blend(contact: &mut Contact, strength: f64, cell_mm: f64, paint_cell_area: f6
         drag: (f64::from(rates.drag) * DRAG * strength) as u32,
         bearing: 0,
         shear: share(cell_mm, STIR_MM / strength).min(32768),
-        padding: [0; 3],
+        held: 0,
+        carried: 0,
+        padding: 0,
     };
     contact.touches.iter_mut().for_each(|touch| touch.set_release(MOP_RELEASE));
 }

@@ -62,11 +62,19 @@ pub struct Linen {
     pub threads_per_cm: f64,
     /// Height from the gaps to the top of an average thread in mm, 0 to 2. 0.12 by default.
     pub relief_mm: f64,
+    /// How much the heights of threads differ, and of the places along them, 0 to 1. 0 by default, as in files
+    /// from before there was this setting. New canvases have 0.5.
+    #[serde(skip_serializing_if = "is_even")]
+    pub unevenness: f64,
+}
+
+fn is_even(unevenness: &f64) -> bool {
+    *unevenness == 0.0
 }
 
 impl Default for Linen {
     fn default() -> Self {
-        Self { seed: 1, threads_per_cm: 14.0, relief_mm: 0.12 }
+        Self { seed: 1, threads_per_cm: 14.0, relief_mm: 0.12, unevenness: 0.0 }
     }
 }
 
@@ -95,9 +103,17 @@ impl Linen {
         let weft = Threads::new(height, width, pitch, &mut random);
         let grain = Hills::new(&mut random);
         let grain_step = (cell_mm / 0.25) as f32;
+        let uneven = check_range("unevenness", "", self.unevenness, [0.0, 1.0])? as f32;
+        let weft_heights = weft.heights(uneven, &mut random);
+        let warp_heights = warp.heights(uneven, &mut random);
         Ok(heights_mm(width, height, |x, y| {
             // Where the warp is up, the weft is down.
-            let top = warp.top(x, y, weft.swing[y]).max(weft.top(y, x, -warp.swing[x]));
+            let top = warp.top(x, y, weft.swing[y], &warp_heights).max(weft.top(
+                y,
+                x,
+                -warp.swing[x],
+                &weft_heights,
+            ));
             let rough = 0.03 * grain.at(x as f32 * grain_step, y as f32 * grain_step);
             let filled = soft_max(top, FILLED) + rough;
             relief * (filled - FILLED) / (1.0 - FILLED)
@@ -113,6 +129,8 @@ fn soft_max(a: f32, b: f32) -> f32 {
 /// All threads of one direction. `across` counts cells perpendicular to the threads,
 /// `along` cells in their direction.
 struct Threads {
+    /// Distance between threads, in cells.
+    pitch: f32,
     nearest: Vec<usize>,
     /// Vertical deflection of threads of the other direction, for each cell across: 1 over
     /// the middle of a thread of sign 1, -1 over one of sign -1.
@@ -167,24 +185,51 @@ impl Threads {
             let sign = f64::from(threads[from].sign);
             swing.push((sign * (std::f64::consts::PI * share).cos()) as f32);
         }
-        Self { nearest, swing, threads }
+        Self { pitch, nearest, swing, threads }
+    }
+
+    /// Heights of the threads.
+    fn heights(&self, uneven: f32, random: &mut ChaCha8Rng) -> ThreadHeights {
+        let usual = self.threads.iter().map(|_| random.random_range(-0.3..0.3)).collect();
+        ThreadHeights { usual, along: Hills::new(random), uneven, pitch: self.pitch }
     }
 
     /// Height of the threads at a cell, as a share of the relief. `swing` is 1 where
-    /// threads of sign 1 are all the way up, -1 where they are down.
-    fn top(&self, across: usize, along: usize, swing: f32) -> f32 {
+    /// threads of sign 1 are all the way up, -1 where they are down. `heights` has one factor for each thread.
+    fn top(&self, across: usize, along: usize, swing: f32, heights: &ThreadHeights) -> f32 {
         let nearest = self.nearest[across];
         let mut top = 0.0f32;
-        for thread in &self.threads[nearest - 1..=nearest + 1] {
+        for index in nearest - 1..=nearest + 1 {
+            let thread = &self.threads[index];
             let [middle, half] = thread.course[along];
             let aside = (across as f32 - middle) / half;
             let round = 1.0 - aside * aside;
             if round > 0.0 {
                 let lift = 0.5 * SWING * (1.0 + thread.sign * swing);
-                top = top.max(lift + (1.0 - SWING) * round.sqrt());
+                top = top.max((lift + (1.0 - SWING) * round.sqrt()) * heights.at(index, along));
             }
         }
         top
+    }
+}
+
+/// Factors on the heights of threads: each thread has its own, and it changes along the thread.
+struct ThreadHeights {
+    usual: Vec<f32>,
+    along: Hills,
+    uneven: f32,
+    pitch: f32,
+}
+
+impl ThreadHeights {
+    fn at(&self, thread: usize, along: usize) -> f32 {
+        if self.uneven == 0.0 {
+            return 1.0;
+        }
+        // Tension changes over some threads of the other direction.
+        let place = along as f32 / self.pitch;
+        let tension = self.along.at(place / 6.0, thread as f32 * 5.17);
+        1.0 + self.uneven * (self.usual[thread] + 0.35 * tension)
     }
 }
 

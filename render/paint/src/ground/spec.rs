@@ -89,7 +89,7 @@ impl GroundKind {
     #[must_use]
     pub fn spec(self, seed: u64) -> GroundSpec {
         match self {
-            Self::Linen => GroundRelief::Linen(Linen { seed, ..Linen::default() }),
+            Self::Linen => GroundRelief::Linen(Linen { seed, unevenness: 0.5, ..Linen::default() }),
             Self::Paper => GroundRelief::Paper(Paper { seed, ..Paper::default() }),
             Self::Panel => GroundRelief::Panel(Panel { seed, ..Panel::default() }),
             Self::Wood => GroundRelief::Wood(Wood { seed, ..Wood::default() }),

@@ -30,11 +30,14 @@ const BORNE: u32 = 2;
 
 /// Thickness in quanta of the film that a head leaves when you press it down on the ground: the
 /// coat that stands out beyond its hair. `mean` is the mean volume in quanta of the cells of that
-/// hair.
+/// hair. Hair with a thick coat keeps less paint, and hair with half more than it keeps leaves its usual
+/// coat.
 #[inline(always)]
 #[must_use]
 pub fn coat(rates: &ExchangeRates, touch: Touch, mean: u32) -> u32 {
-    let usual = rates.film + share_of_65536(mean, rates.release).min(CROWDED_VOLUME);
+    let kept = (rates.held >> 5) * 64_u32.saturating_sub(touch.release()).max(12);
+    let free = mean.min(3 * mean.saturating_sub(kept).min(MAX_COLUMN / 3));
+    let usual = rates.film + share_of_65536(free, rates.release).min(CROWDED_VOLUME);
     (usual >> 5) * touch.release()
 }
 
@@ -46,7 +49,8 @@ pub fn coat(rates: &ExchangeRates, touch: Touch, mean: u32) -> u32 {
 ///
 /// A loaded head rides on a share of the paint that was there before the stroke, and lays its coat
 /// on that. This paint reaches from the ground under the hair up to the height `bed` in quanta. We
-/// count at most twice the thickness of the coat. A clean head does not have a coat, so it digs in.
+/// count at most twice the thickness of the coat, or [`ExchangeRates::carried`]. A clean head has neither, so
+/// it digs in.
 /// Hair is never borne higher than its coat above the paint that is there now.
 #[inline(always)]
 #[must_use]
@@ -62,7 +66,7 @@ pub fn penetration(
     let ground = sunk.max(floor);
     let bearing = bed.min(raised(top, coat));
     let above = if bearing > ground { bearing.wrapping_sub(ground) as u32 } else { 0 };
-    let borne = share_of_65536(above.min(BORNE * coat), rates.bearing);
+    let borne = share_of_65536(above.min((BORNE * coat).max(rates.carried)), rates.bearing);
     let hair = raised(ground, borne);
     let reached = (touch.height != Touch::NONE.height) & (hair - coat as i32 <= top);
     if reached { top.wrapping_sub(hair) } else { NO_CONTACT }
@@ -262,6 +266,33 @@ mod tests {
 
     fn pressed_column(pressure: i32) -> Column {
         Column { top: CELL, pressure }
+    }
+
+    /// Coat of hair with the release `release` and a mean of `mean` quanta, of which it keeps about 3200.
+    fn coat_of(release: u32, mean: u32) -> u32 {
+        let rates = ExchangeRates { release: 32768, held: 3200, ..ExchangeRates::default() };
+        let mut touch = Touch::new(0, 0, (0, 0), 0, 1);
+        touch.set_release(release);
+        coat(&rates, touch, mean)
+    }
+
+    #[test]
+    fn hair_with_little_paint_keeps_it() {
+        assert_eq!(coat_of(32, 3200), 0, "all of it is kept");
+        assert_eq!(coat_of(32, 3840), 960, "half of three times what is free");
+        assert_eq!(coat_of(32, 12_800), 6400, "plenty");
+        assert!(coat_of(48, 3200) > 0, "a lock with a thick coat keeps less");
+        assert_eq!(coat_of(16, 4700), 0, "a lock with a thin coat keeps more");
+    }
+
+    #[test]
+    fn a_loaded_blade_rides_higher_than_its_coat() {
+        let rates = ExchangeRates { bearing: 65536, carried: 1500, ..ExchangeRates::default() };
+        let touch = Touch::new(0, 0, (0, 0), 0, 1);
+        // On the paint that was there, and no higher than its bank carries it.
+        for (bed, wanted) in [(900, 1200), (2100, 500)] {
+            assert_eq!(penetration(&rates, touch, (100, 2000), bed, 200), wanted, "{bed}");
+        }
     }
 
     #[test]

@@ -9,7 +9,10 @@ const CELL_A_SUB_STEP: i32 = 16384;
 const FASTEST_FLOW: u32 = 8192u;
 
 fn coat(rates: ExchangeRates, touch: Touch, mean: u32) -> u32 {
-    let usual = rates.film + min(share_of_65536(mean, rates.release), CROWDED_VOLUME);
+    let kept = (rates.held >> 5u) * max(64u - min(touch_release(touch), 64u), 12u);
+    let above = min(mean - min(mean, kept), MAX_COLUMN / 3u);
+    let free = min(mean, 3u * above);
+    let usual = rates.film + min(share_of_65536(free, rates.release), CROWDED_VOLUME);
     return (usual >> 5u) * touch_release(touch);
 }
 
@@ -30,7 +33,8 @@ fn penetration(
     let top = floor_quanta + bitcast<i32>(volume_quanta);
     let there = min(bed, top + bitcast<i32>(coat_quanta));
     let above = select(0u, bitcast<u32>(there - ground), there > ground);
-    let borne = share_of_65536(min(above, BORNE * coat_quanta), rates.bearing);
+    let most = max(BORNE * coat_quanta, rates.carried);
+    let borne = share_of_65536(min(above, most), rates.bearing);
     let hair = ground + bitcast<i32>(borne);
     return select(NO_CONTACT, top - hair, hair - bitcast<i32>(coat_quanta) <= top);
 }

@@ -10,7 +10,7 @@ use graphics::tile::{Rect, Tile, TileSet};
 use super::failure::PaintingError;
 use super::state::Painting;
 use crate::amount::mm_from_quanta;
-use crate::brush::{Head, Relief, SideBySide, StrokeTool};
+use crate::brush::{Head, HeadShape, Relief, SideBySide, StrokeTool};
 use crate::contact::{Contact, Touch};
 use crate::engine::{BrushId, PaintEngine};
 use crate::history::CommitOutcome;
@@ -117,14 +117,30 @@ impl OpenStroke {
         paint: Option<&Layer>,
     ) -> Result<(), PaintingError> {
         painting.assert_idle("a stroke");
-        let id = painting.brushes[brush.0].id;
+        let tool = &painting.brushes[brush.0];
+        let id = tool.id;
+        let is_blade = tool.head.shape() == HeadShape::Knife;
+        let sweeps = self.stroke.tool == StrokeTool::Paint && !is_blade;
+        if sweeps {
+            self.path.sweep();
+        }
         painting.history.begin(painting.undo_state());
         let engine = &mut painting.engine;
         let opened = painting.history.save_brush(engine, id).and_then(|()| {
             if let Some(paint) = paint {
                 engine.set_brush_paint(id, paint)?;
             }
-            CleanHead::of(self.stroke.tool, engine, id)
+            let clean = CleanHead::of(self.stroke.tool, engine, id)?;
+            let head = &mut painting.brushes[brush.0].head;
+            let mut bank_mm = 0.0;
+            if is_blade {
+                let quanta: u64 = engine.brush_paint(id)?.totals().into_iter().sum();
+                let cells = head.paint_grid().0 * head.rows_with_paint().len();
+                let mean = quanta as f64 / cells as f64 / head.paint_cell_area();
+                bank_mm = mean * mm_from_quanta(1, painting.cell_mm);
+            }
+            head.begin(bank_mm, sweeps);
+            Ok(clean)
         });
         match opened {
             Ok(clean) => {

@@ -147,7 +147,9 @@ fn random_contact(
         drag: share() >> 8,
         bearing: share(),
         shear: share(),
-        padding: [0; 3],
+        held: 8 * share(),
+        carried: 8 * share(),
+        padding: 0,
     };
     Contact { rect: Rect { x, y, width, height }, touches, rates, wicking }
 }

@@ -60,6 +60,8 @@ const STRUCTS: &[Layout] = &[
         drag,
         bearing,
         shear,
+        held,
+        carried,
         padding
     }),
     layout!(Touch { height, brush_cell, velocity, weights }),

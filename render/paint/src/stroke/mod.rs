@@ -1,6 +1,8 @@
 //! A stroke is a smooth path through pen samples. This module follows the path as samples arrive,
 //! cuts it into sub-steps of at most one cell, and gives you the contacts of a head along it.
 
+mod piece;
+
 use std::collections::VecDeque;
 
 use documents::hint::Explain;
@@ -10,6 +12,7 @@ use super::brush::{Head, Relief};
 use super::contact::Contact;
 pub use super::pose::SampleDecimals;
 use super::pose::{Pose, Sample};
+use piece::{Piece, distance, interpolated, most_pressure, place};
 
 /// Computes the poses of a stroke. Each is at most one cell from the previous one, from the first
 /// sample to the last. There we lift the brush.
@@ -18,8 +21,8 @@ use super::pose::{Pose, Sample};
 /// 2011). Pressure, tilt and twist are interpolated linearly, twist the shorter way round. From one
 /// pose to the next, the sides of a brush of `size_mm` move by one cell at most, an angle changes
 /// by 3 degrees at most, and the pressure by 1/16 at most, less for a wide brush, so that the sides
-/// of its mark move by about a cell. At the last sample we lift the brush on the spot: its sides
-/// move by 1.5 cells a pose. Time only orders the samples: a brush at rest does not make sub-steps.
+/// of its mark move by about a cell. After the last sample we lift the brush: the sides of its mark
+/// move by 0.75 cells a pose. Times give the speed of the hand: a brush at rest does not make sub-steps.
 /// If all samples have one position and pose, you get a dab: we press the brush down and lift it at
 /// this position.
 ///
@@ -136,142 +139,23 @@ pub enum StrokeError {
     Lifted,
 }
 
-/// Maximum change of pressure in a sub-step, 0 to 1 (chosen by eye).
-const MOST_PRESSURE: f64 = 1.0 / 16.0;
-
-/// Maximum change of pressure in a sub-step of a brush whose half width is `reach` in cells: the
-/// sides of its mark move by about a cell.
-fn most_pressure(reach: f64) -> f64 {
-    MOST_PRESSURE.min(0.5 / reach)
-}
-/// Maximum change of tilt or twist in a sub-step, in degrees (chosen by eye).
-const MOST_DEGREES: f64 = 3.0;
-
-/// Number of points per sub-step at which the walk tests whether the sub-step is full. This keeps
-/// every sub-step at 15/16 or longer.
-const LOOKS: f64 = 16.0;
-
-/// The curve from one sample to the next.
-#[derive(Debug, Clone)]
-struct Piece {
-    from: Pose,
-    to: Pose,
-    /// Bezier points of the curve, in cells.
-    points: [(f64, f64); 4],
-    /// Half of the width of the brush in cells.
-    reach: f64,
-    /// We walk the curve in this number of equal steps of its parameter.
-    looks: u64,
-}
-
-impl Piece {
-    /// The curve between the samples `from` and `to`. The samples before and after them, if there
-    /// are any, set its tangents. `reach` is half of the width of the brush in cells.
-    fn new(
-        (before, from): (Option<Pose>, Pose),
-        (mut to, after): (Pose, Option<Pose>),
-        reach: f64,
-    ) -> Self {
-        let turn = (to.twist_deg - from.twist_deg) % 360.0;
-        to.twist_deg = from.twist_deg + turn - 360.0 * (turn / 360.0).round();
-        let b = place(&from);
-        let c = place(&to);
-        let before = before.map_or_else(|| mirrored(c, b), |pose| place(&pose));
-        let after = after.map_or_else(|| mirrored(b, c), |pose| place(&pose));
-        let points = [b, handle(before, b, c), handle(after, c, b), c];
-        let mut piece = Self { from, to, points, reach, looks: 0 };
-        piece.looks = (piece.size() * LOOKS).ceil() as u64;
-        piece
-    }
-
-    /// Upper bound of the number of sub-steps of this piece.
-    fn size(&self) -> f64 {
-        let legs = self.points.windows(2).map(|leg| distance(leg[0], leg[1]));
-        // A Bezier curve of parameter 0..1 is nowhere faster than this.
-        let fastest = 3.0 * legs.fold(0.0, f64::max);
-        let swung = swung(&self.from, &self.to, self.reach);
-        (fastest + swung).max(turned(&self.from, &self.to, self.reach))
-    }
-
-    /// Number of sub-steps, or part of one, from step `look` to the next step.
-    fn part(&self, look: u64) -> f64 {
-        substeps_between(&self.pose(look), &self.pose(look + 1), self.reach)
-    }
-
-    /// Pose after `look` of its `looks` steps.
-    fn pose(&self, look: u64) -> Pose {
-        let t = look as f64 / self.looks as f64;
-        let s = 1.0 - t;
-        let weights = [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t];
-        let on_curve = weights.iter().zip(&self.points);
-        let (x, y) = on_curve.fold((0.0, 0.0), |(x, y), (w, p)| (x + w * p.0, y + w * p.1));
-        Pose {
-            x,
-            y,
-            pressure: interpolated(self.from.pressure, self.to.pressure, t),
-            tilt_x_deg: interpolated(self.from.tilt_x_deg, self.to.tilt_x_deg, t),
-            tilt_y_deg: interpolated(self.from.tilt_y_deg, self.to.tilt_y_deg, t),
-            twist_deg: interpolated(self.from.twist_deg, self.to.twist_deg, t),
-        }
-    }
-}
-
-fn interpolated(a: f64, b: f64, t: f64) -> f64 {
-    a + (b - a) * t
-}
-
-fn place(pose: &Pose) -> (f64, f64) {
-    (pose.x, pose.y)
-}
-
-/// Number of sub-steps, or part of one, from `a` to the near pose `b`. In a sub-step the sides of
-/// the brush move by a cell at most.
-fn substeps_between(a: &Pose, b: &Pose, reach: f64) -> f64 {
-    (distance((a.x, a.y), (b.x, b.y)) + swung(a, b, reach)).max(turned(a, b, reach))
-}
-
-/// Distance in cells by which the sides of a brush move as it twists. `reach` is half of its width
-/// in cells.
-fn swung(a: &Pose, b: &Pose, reach: f64) -> f64 {
-    reach * (a.twist_deg - b.twist_deg).abs().to_radians()
-}
-
-/// Number of sub-steps that the change of pressure and angles takes.
-fn turned(a: &Pose, b: &Pose, reach: f64) -> f64 {
-    let tilted = (a.tilt_x_deg - b.tilt_x_deg).abs().max((a.tilt_y_deg - b.tilt_y_deg).abs());
-    let turned = tilted.max((a.twist_deg - b.twist_deg).abs());
-    (turned / MOST_DEGREES).max((a.pressure - b.pressure).abs() / most_pressure(reach))
-}
-
-fn distance(a: (f64, f64), b: (f64, f64)) -> f64 {
-    libm::hypot(a.0 - b.0, a.1 - b.1)
-}
-
-/// `a` mirrored at `b`.
-fn mirrored(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
-    (2.0 * b.0 - a.0, 2.0 * b.1 - a.1)
-}
-
-/// Inner Bezier point next to `here` of the curve from `here` to `next`, with `last` as the
-/// point before.
-fn handle(last: (f64, f64), here: (f64, f64), next: (f64, f64)) -> (f64, f64) {
-    // Centripetal: knot distances are square roots of point distances.
-    let d = distance(last, here);
-    let e = distance(here, next);
-    let root_d = d.sqrt();
-    let root_e = e.sqrt();
-    let whole = 3.0 * root_d * (root_d + root_e);
-    if whole == 0.0 {
-        return here;
-    }
-    let weight = 2.0 * d + 3.0 * root_d * root_e + e;
-    let along = |l: f64, h: f64, n: f64| (d * n - e * l + weight * h) / whole;
-    (along(last.0, here.0, next.0), along(last.1, here.1, next.1))
-}
-
 /// Cells by which the side of a mark moves in a sub-step of pressing down or lifting on the spot
 /// (chosen by the measured lip at the end of a stroke).
-const LIFT: f64 = 1.5;
+const LIFT: f64 = 0.75;
+
+/// Cells by which a hand sweeps on in a sub-step in which it lifts a brush from its way. From a pressure
+/// of one half it sweeps on by a third of the width of the brush (chosen by eye).
+const SWEEP: f64 = 0.7;
+
+/// Number of sub-steps in which a hand comes down to the start of a path, relative to those in which it
+/// lifts the brush from there.
+const APPROACH: f64 = 0.66;
+
+/// Distance in mm over which the speed of the hand follows its samples. A pen's clock jitters.
+const SPEED_MM: f64 = 3.0;
+
+/// Highest speed of a hand in mm/s.
+const FASTEST: f64 = 5000.0;
 
 /// Iterator over the poses of a stroke. You may pass its samples in portions and still get the
 /// poses of [`substeps`] for all samples at once, equal to the bit.
@@ -294,6 +178,12 @@ pub struct Path {
     length: f64,
     first: Option<Pose>,
     finished: bool,
+    /// Whether the hand moves on while it lifts the brush.
+    sweeps: bool,
+    /// Direction of the path at its end: a unit vector, or (0, 0) if the hand rests.
+    heading: (f64, f64),
+    /// Number of poses left before `first`. `None` before we know it.
+    approach: Option<usize>,
     /// Number of poses returned of a dab, or of the lifting of the brush after a path.
     ended: usize,
     /// Number of pieces walked to their end.
@@ -326,12 +216,20 @@ impl Path {
             length: 0.0,
             first: None,
             finished: false,
+            sweeps: false,
+            heading: (0.0, 0.0),
+            approach: None,
             ended: 0,
             walked: 0,
             look: 0,
             since: 0.0,
             next: None,
         })
+    }
+
+    /// Lets the hand move on at the end of the path while it lifts the brush, unless it rests there.
+    pub fn sweep(&mut self) {
+        self.sweeps = true;
     }
 
     /// Appends a sample. If it is refused, others can be appended instead.
@@ -345,8 +243,15 @@ impl Path {
     pub fn push(&mut self, sample: &Sample) -> Result<(), StrokeError> {
         assert!(!self.finished, "a path takes no samples after it is finished");
         self.check(sample)?;
-        let pose = sample.pose(self.cell_mm);
-        let [before, from, to] = self.recent;
+        let mut pose = sample.pose(self.cell_mm);
+        let [before, from, mut to] = self.recent;
+        if let Some(to) = &mut to {
+            pose.speed_mm_s = self.speed_after(to, (&pose, sample.seconds));
+            if self.samples == 1 {
+                to.speed_mm_s = pose.speed_mm_s;
+                self.first = Some(*to);
+            }
+        }
         let known =
             from.zip(to).map(|(from, to)| Piece::new((before, from), (to, Some(pose)), self.reach));
         let guessed = to.map(|to| Piece::new((from, to), (pose, None), self.reach));
@@ -362,7 +267,23 @@ impl Path {
         Ok(())
     }
 
+    /// Speed of the hand in mm/s at the sample `to`, after the sample `from`. If no time has passed between
+    /// them, it is the speed before.
+    fn speed_after(&self, from: &Pose, (to, seconds): (&Pose, f64)) -> f64 {
+        let way_mm = distance(place(from), place(to)) * self.cell_mm;
+        let took = seconds - self.seconds;
+        if took <= 0.0 {
+            return from.speed_mm_s;
+        }
+        let speed = (way_mm / took).min(FASTEST);
+        let followed = if self.samples == 1 { 1.0 } else { 1.0 - libm::exp(-way_mm / SPEED_MM) };
+        interpolated(from.speed_mm_s, speed, followed)
+    }
+
     fn add(&mut self, piece: Option<Piece>) {
+        if let Some(piece) = &piece {
+            self.heading = piece.headings()[1];
+        }
         self.length += piece.as_ref().map_or(0.0, Piece::size);
         self.pieces.extend(piece);
     }
@@ -409,7 +330,8 @@ impl Path {
         };
         let sizes: f64 = self.pieces.iter().map(Piece::size).sum();
         let lifting = if self.finished { self.pressing().1 - self.ended } else { 0 };
-        1 + lifting + (sizes - looked + self.since).max(0.0) as usize
+        let approach = self.first.and(self.approach).map_or(0, |left| left + 1);
+        1 + approach + lifting + (sizes - looked + self.since).max(0.0) as usize
     }
 
     /// The next pose, if it is known, without removing it.
@@ -436,8 +358,19 @@ impl Path {
         if self.length == 0.0 {
             return self.pressed();
         }
-        if let Some(first) = self.first.take() {
-            return Some(first);
+        if let Some(first) = self.first {
+            let (x, y) = self.pieces.front().map_or((0.0, 0.0), |piece| piece.headings()[0]);
+            let before = self.approach.unwrap_or_else(|| {
+                let moves = self.sweeps && (x, y) != (0.0, 0.0);
+                let poses = APPROACH * self.lifting(first.pressure) as f64;
+                if moves { poses as usize } else { 0 }
+            });
+            self.approach = before.checked_sub(1);
+            if before == 0 {
+                self.first = None;
+            }
+            let back = SWEEP * before as f64;
+            return Some(Pose { x: first.x - back * x, y: first.y - back * y, ..first });
         }
         while let Some(piece) = self.pieces.front() {
             while self.look < piece.looks {
@@ -456,12 +389,16 @@ impl Path {
         self.pressed()
     }
 
+    /// Number of sub-steps in which we lift the brush from this pressure.
+    fn lifting(&self, pressure: f64) -> usize {
+        (pressure / (LIFT * most_pressure(self.reach))).ceil() as usize
+    }
+
     /// Number of sub-steps in which we lift the brush at the last sample, and number of all poses
     /// there. On a path the brush arrives pressed, so we only lift it. For a dab we press it down
     /// first, in as many sub-steps.
     fn pressing(&self) -> (usize, usize) {
-        let pressure = self.recent[2].map_or(0.0, |last| last.pressure);
-        let lifting = (pressure / (LIFT * most_pressure(self.reach))).ceil() as usize;
+        let lifting = self.lifting(self.recent[2].map_or(0.0, |last| last.pressure));
         (lifting, if self.length == 0.0 { 2 * lifting + 1 } else { lifting + 1 })
     }
 
@@ -470,9 +407,12 @@ impl Path {
         let last = self.recent[2].filter(|_| self.finished)?;
         let (lifting, poses) = self.pressing();
         let left = (poses - 1).checked_sub(self.ended)?;
+        let swept = if self.sweeps { SWEEP * self.ended as f64 } else { 0.0 };
         self.ended += 1;
         let share = 1.0 - lifting.abs_diff(left) as f64 / lifting.max(1) as f64;
-        Some(Pose { pressure: share * last.pressure, ..last })
+        let x = last.x + swept * self.heading.0;
+        let y = last.y + swept * self.heading.1;
+        Some(Pose { x, y, pressure: share * last.pressure, ..last })
     }
 
     fn check(&self, sample: &Sample) -> Result<(), StrokeError> {
@@ -521,6 +461,7 @@ impl Iterator for Path {
 
 #[cfg(test)]
 mod tests {
+    use super::piece::turned;
     use super::*;
     use crate::brush::HeadShape;
     use rand::{RngExt, SeedableRng};
@@ -560,7 +501,7 @@ mod tests {
         let steps = poses.windows(2).map(|w| (w[0].x - w[1].x).hypot(w[0].y - w[1].y));
         let steps: Vec<f64> = steps.collect();
         assert!(steps.iter().all(|&step| step <= 1.0), "{steps:?}");
-        let steps = &steps[..steps.len() - 10];
+        let steps = &steps[..steps.len() - 20];
         assert!(poses[steps.len()..].iter().all(|pose| (pose.x, pose.y) == (20.0, 80.0)));
         let full = steps.iter().filter(|&&step| step > 0.85).count();
         assert!(full + 8 >= steps.len(), "{full} of {}", steps.len());
@@ -615,11 +556,16 @@ mod tests {
         for seed in 0..300 {
             let random = &mut ChaCha8Rng::seed_from_u64(seed);
             let samples = random_samples(random);
-            let whole = poses(&samples);
+            let mut whole = Path::new(0.1, SIZE_MM).unwrap();
+            whole.sweep();
+            samples.iter().for_each(|sample| whole.push(sample).unwrap());
+            whole.finish();
+            let whole: Vec<Pose> = whole.collect();
             dabs += usize::from(
                 samples.iter().all(|sample| sample_place(sample) == sample_place(&SAMPLE)),
             );
             let mut path = Path::new(0.1, SIZE_MM).unwrap();
+            path.sweep();
             let mut pieces = Vec::new();
             let mut rest = &samples[..];
             let mut lagged = 0;
@@ -676,7 +622,7 @@ mod tests {
         let end = Sample { pressure: 1.0, twist_deg: 90.0, ..SAMPLE };
         let poses = poses(&[SAMPLE, end]);
         assert!(poses.len() > 30, "{}", poses.len());
-        for pair in poses[..poses.len() - 20].windows(2) {
+        for pair in poses[..poses.len() - 40].windows(2) {
             assert!(turned(&pair[0], &pair[1], 15.0) <= 1.0 + 1e-9, "{pair:?}");
         }
     }
@@ -705,10 +651,10 @@ mod tests {
     fn one_sample_is_a_dab() {
         for samples in [&[SAMPLE][..], &[SAMPLE, at(1.0, 5.0, 5.0)]] {
             let pressures: Vec<f64> = poses(samples).iter().map(|pose| pose.pressure).collect();
-            // By 1.5/30 for a brush 30 cells wide.
-            assert_eq!(pressures.len(), 2 * 10 + 1);
+            // By 0.75/30 for a brush 30 cells wide.
+            assert_eq!(pressures.len(), 2 * 20 + 1);
             for (at, pressure) in pressures.iter().enumerate() {
-                let wanted = (10 - 10_usize.abs_diff(at)) as f64 / 20.0;
+                let wanted = (20 - 20_usize.abs_diff(at)) as f64 / 40.0;
                 assert!((pressure - wanted).abs() < 1e-9, "{at}: {pressure}, not {wanted}");
             }
         }
@@ -736,11 +682,57 @@ mod tests {
         assert!(fastest(&stroke[140]) > Some(240), "{:?}", fastest(&stroke[140]));
         let dab = substeps(&[SAMPLE], 0.1, SIZE_MM).unwrap();
         let dab: Vec<Contact> = contacts(&mut head, dab, &relief, bounds).collect();
-        assert_eq!(dab.len(), 2 * 10 - 1);
+        assert_eq!(dab.len(), 2 * 20 - 1);
         assert!(dab.iter().any(|contact: &Contact| {
             let mut touches = contact.touches.iter();
             touches.any(|touch| touch.height < sunk(contact) && touch.transfer_weight() == 256)
         }));
+    }
+
+    #[test]
+    fn a_hand_comes_down_and_sweeps_on_along_its_way() {
+        let mut path = Path::new(0.1, SIZE_MM).unwrap();
+        path.sweep();
+        for sample in [SAMPLE, at(0.2, 12.0, 5.0), at(0.4, 20.0, 5.0)] {
+            path.push(&sample).unwrap();
+        }
+        path.finish();
+        let poses: Vec<Pose> = path.collect();
+        let first = poses[0];
+        let last = poses[poses.len() - 1];
+        assert!(first.x < 45.0 && first.pressure == 0.5, "{first:?}");
+        assert!(last.x > 210.0 && last.pressure == 0.0, "{last:?}");
+        assert!(poses.iter().all(|pose| (pose.y - 50.0).abs() < 1e-9));
+        for pair in poses.windows(2) {
+            let way = pair[1].x - pair[0].x;
+            assert!((0.0..=1.0 + 1e-9).contains(&way), "{pair:?}");
+        }
+        // A dab stays where it is, and so does a hand that rests before it lifts.
+        for samples in [&[SAMPLE][..], &[SAMPLE, at(0.2, 12.0, 5.0), at(0.3, 12.0, 5.0)]] {
+            let mut path = Path::new(0.1, SIZE_MM).unwrap();
+            path.sweep();
+            samples.iter().for_each(|sample| path.push(sample).unwrap());
+            path.finish();
+            let end = path.last().unwrap();
+            assert_eq!((end.x, end.y), (10.0 * samples[samples.len() - 1].x_mm, 50.0));
+        }
+    }
+
+    fn speeds(samples: &[Sample]) -> Vec<f64> {
+        poses(samples).iter().map(|pose| pose.speed_mm_s).collect()
+    }
+
+    #[test]
+    fn speed_follows_the_samples_and_ignores_clocks_that_stand_still() {
+        let even = speeds(&[SAMPLE, at(0.1, 15.0, 5.0), at(0.2, 25.0, 5.0)]);
+        assert!(even.iter().all(|speed| (speed - 100.0).abs() < 1e-9), "{even:?}");
+        let unknown = speeds(&[SAMPLE, at(0.0, 15.0, 5.0)]);
+        assert!(unknown.iter().all(|&speed| speed == 0.0), "{unknown:?}");
+        let faster = speeds(&[SAMPLE, at(0.1, 15.0, 5.0), at(0.12, 25.0, 5.0)]);
+        let last = faster[faster.len() - 1];
+        assert!(last > 450.0 && last < 500.0, "{last}");
+        let jitter = speeds(&[SAMPLE, at(0.1, 15.0, 5.0), at(0.1001, 15.5, 5.0)]);
+        assert!(jitter[jitter.len() - 1] < 900.0, "half a mm counts little");
     }
 
     #[test]
