@@ -132,10 +132,10 @@ pub struct ExchangeRates {
     /// Share of the skin and of the body that the hair stirs into each other, relative to the smaller
     /// of the skin and the part of the body that the hair reaches.
     pub shear: u32,
-    /// Paint in quanta that the hair keeps, for hair with the mean coat. Hair that has less lays nothing.
+    /// Volume in quanta of the paint that a cell of hair with the mean coat keeps. Hair with less lays nothing.
     pub held: u32,
-    /// Height in quanta up to which the paint from before the stroke bears a blade that came loaded. A thick
-    /// coat is borne as high without this.
+    /// Height in quanta of the paint from before the stroke on which a blade rides that was loaded when the
+    /// stroke began. Twice the coat bears a head as well, so hair has 0 here.
     pub carried: u32,
     /// Unused. Pads the uniforms of the shaders.
     pub padding: u32,

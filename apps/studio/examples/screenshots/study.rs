@@ -27,7 +27,8 @@ pub(crate) fn new_painting() -> Command {
         unreachable!("a bare canvas is bare");
     };
     script.title = "Two pears and a plum".to_owned();
-    let linen = Linen { seed: 7, threads_per_cm: 16.0, relief_mm: 0.05, unevenness: 0.5 };
+    let linen =
+        Linen { seed: 7, threads_per_cm: 16.0, relief_mm: 0.05, unevenness: Linen::UNEVENNESS };
     let primer = Primer::Color(ColorPrimer { rgb: "#c39a6b".to_owned() });
     let ground = GroundSpec { reflectance: Some(primer), ..GroundRelief::Linen(linen).into() };
     script.canvas = Canvas { ground, ..script.canvas };

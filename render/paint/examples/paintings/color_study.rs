@@ -9,7 +9,8 @@ use paint::strokes::{Canvas, StrokeScript};
 use super::script_builder::ScriptBuilder;
 
 pub(crate) fn script() -> StrokeScript {
-    let linen = Linen { seed: 3, threads_per_cm: 16.0, relief_mm: 0.06, unevenness: 0.5 };
+    let linen =
+        Linen { seed: 3, threads_per_cm: 16.0, relief_mm: 0.06, unevenness: Linen::UNEVENNESS };
     let ground = GroundRelief::Linen(linen).into();
     let canvas = Canvas { width_mm: 150.0, height_mm: 100.0, cell_mm: 0.2, ground };
     let pigments = [

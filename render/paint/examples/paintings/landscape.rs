@@ -38,7 +38,8 @@ const EARTH: [(&str, &str); 8] = [
 ];
 
 pub(crate) fn script() -> StrokeScript {
-    let linen = Linen { seed: 7, threads_per_cm: 17.0, relief_mm: 0.06, unevenness: 0.5 };
+    let linen =
+        Linen { seed: 7, threads_per_cm: 17.0, relief_mm: 0.06, unevenness: Linen::UNEVENNESS };
     let primer = Primer::Color(ColorPrimer { rgb: "#d9b98a".to_owned() });
     let ground = GroundSpec { reflectance: Some(primer), ..GroundRelief::Linen(linen).into() };
     let canvas = Canvas { width_mm: WIDTH, height_mm: HEIGHT, cell_mm: 0.2, ground };

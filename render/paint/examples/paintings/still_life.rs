@@ -25,7 +25,8 @@ const LEMON: Form = Form { middle: (57.0, 52.0), half: (11.5, 8.0) };
 const APPLE: Form = Form { middle: (75.0, 44.0), half: (10.0, 10.0) };
 
 pub(crate) fn script() -> StrokeScript {
-    let linen = Linen { seed: 11, threads_per_cm: 18.0, relief_mm: 0.05, unevenness: 0.5 };
+    let linen =
+        Linen { seed: 11, threads_per_cm: 18.0, relief_mm: 0.05, unevenness: Linen::UNEVENNESS };
     let ground = GroundRelief::Linen(linen).into();
     let canvas = Canvas { width_mm: WIDTH, height_mm: HEIGHT, cell_mm: 0.07, ground };
     let pigments = [

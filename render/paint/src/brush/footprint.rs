@@ -58,7 +58,8 @@ struct Facet {
     cell: u32,
 }
 
-/// Height by which hair bends up over a row of paint cells, in their length (chosen by eye).
+/// Height in cells by which hair that bends away rises from one row of paint cells to the next (chosen by
+/// eye).
 const BENDS: f32 = 0.4;
 
 impl Footprint {
@@ -95,7 +96,7 @@ impl Footprint {
         let around = cells_around as f32 * ONE;
         let along = cells_along as f32 * ONE;
         let most = (cells_around as i32 - 1, cells_along as i32 - 1);
-        let steep = (BENDS * QUANTA_PER_CELL as f32) as i32;
+        let rise = (BENDS * QUANTA_PER_CELL as f32) as i32;
         for facet in &self.facets {
             let [a, b, c, d] = facet.corners.map(|i| &surface.vertices[i as usize]);
             let corners = [
@@ -113,7 +114,7 @@ impl Footprint {
                 row: self.width,
                 most,
                 first_row: (facet.cell / self.width) as i32,
-                steep,
+                rise,
                 locks: &locks[facet.cell as usize % locks.len()..],
             };
             canvas.triangle(&corners[0], &corners[1], &corners[2]);
@@ -256,9 +257,10 @@ struct Canvas<'a> {
     row: u32,
     /// Index of the facet's last paint cell, around and along.
     most: (i32, i32),
+    /// Row of the facet's first paint cell, from the ferrule.
     first_row: i32,
-    /// Height in quanta by which hair bends up from one row of paint cells to the next above it.
-    steep: i32,
+    /// Height in quanta by which hair that bends away rises from one row of paint cells to the next.
+    rise: i32,
     /// Locks from the first column of the facet on.
     locks: &'a [Lock],
 }
@@ -319,7 +321,7 @@ impl Canvas<'_> {
                 let around = (at[AROUND] >> 16).max(0).min(self.most.0) as u32;
                 let lock = self.locks[around as usize];
                 let along = (at[ALONG] >> 16).max(0).min(self.most.1);
-                let bent = (lock.front - self.first_row - along).max(0) * self.steep;
+                let bent = (lock.front - self.first_row - along).max(0) * self.rise;
                 let height = at[HEIGHT] + lock.recess + bent;
                 if height < touch.height {
                     let along = along as u32;
@@ -548,10 +550,10 @@ fn finished(vertex: &Point, relief: f32, grasp: f32, pressed: f32) -> Point {
     let &[x, y, z, _, dx, dy, dz, _] = vertex;
     let height = greater(z, relief);
     let speed = greater((dx * dx + dy * dy + dz * dz).sqrt(), pressed);
-    // In a sub-step paint moves by a cell at most.
-    let too_fast = greater((dx * dx + dy * dy).sqrt(), 1.0);
-    let dx = dx / too_fast;
-    let dy = dy / too_fast;
+    // Lifted hair springs back faster than a cell a sub-step, and paint cannot follow.
+    let way = greater((dx * dx + dy * dy).sqrt(), 1.0);
+    let dx = dx / way;
+    let dy = dy / way;
     let t = ((speed - 0.2) * 10.0).clamp(0.0, 1.0);
     [
         x,

@@ -3,10 +3,11 @@
 use std::ops::Range;
 
 use super::footprint::{Hold, Imprint, Sides};
-use super::locks::{Locks, rates, rows_with_paint, wicking};
+use super::locks::Locks;
 use super::relief::Relief;
 use super::spines::{Grip, Spines, Vector};
 use super::surface::{HeadMesh, LimitSurface, Net, columns};
+use super::uptake::{rates, rows_with_paint, wicking};
 use super::{BrushError, HeadShape};
 use crate::contact::{Contact, ExchangeRates, Wicking};
 use crate::pose::Pose;
@@ -38,7 +39,7 @@ pub struct Head {
     pub(super) imprint: Imprint,
     pub(super) locks: Locks,
     pub(super) sides: Sides,
-    /// Height in mm of the paint with which a blade began its stroke.
+    /// Mean height in mm of the paint with which a blade began its stroke. 0 for hair.
     bank_mm: f64,
     /// Number of sub-steps since the head was set down.
     sub_step: u32,
@@ -137,8 +138,8 @@ impl Head {
         rows - rows_with_paint(self.spines.of, rows, self.cell_mm)..rows
     }
 
-    /// Prepares a stroke. A blade begins it with a mean of `bank_mm` mm of paint. The locks of hair land and
-    /// leave `one_by_one`, or all at once.
+    /// Prepares a stroke. `bank_mm` is the mean height in mm of the paint on a blade, which only blades ask
+    /// for. The locks of hair land, lie and leave `one_by_one`, or all at once.
     pub(crate) fn begin(&mut self, bank_mm: f64, one_by_one: bool) {
         self.bank_mm = bank_mm;
         self.locks.land_one_by_one(one_by_one);

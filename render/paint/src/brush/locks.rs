@@ -12,9 +12,8 @@ use graphics::noise::{Hills, random};
 use rand::RngExt;
 
 use super::Proportions;
-use super::spines::{Grip, sink_mm};
-use crate::amount::{QUANTA_PER_CELL, quanta_from_mm};
-use crate::contact::{ExchangeRates, Wicking};
+use super::spines::Grip;
+use crate::amount::QUANTA_PER_CELL;
 
 /// Width of a lock in mm (chosen by eye).
 const LOCK_MM: f32 = 0.5;
@@ -32,35 +31,44 @@ const CHANGE_MM: f32 = 6.0;
 /// Number of sub-steps between two changes of the locks.
 const SUB_STEPS: u32 = 4;
 
-/// Difference in mm between the places where the first and the last lock land: at most, and relative to
-/// the width of the head (chosen by eye).
-const LANDING_MM: f32 = 5.0;
+/// Way in mm from where the longest lock lands to where the shortest does, relative to the width of the head
+/// (chosen by eye).
 const LANDING: f32 = 0.5;
 
-/// Pressure, relative to the highest of the stroke, below which the shortest lock has left the canvas
-/// (chosen by eye).
+/// Longest such way in mm.
+const LANDING_MM: f32 = 5.0;
+
+/// Way in mm that lands as many locks as pressing the head down from 0 to full pressure.
+const PRESSING_MM: f32 = 20.0;
+
+/// Way in mm over which one lock comes down.
+const LANDS_MM: f32 = 0.3;
+
+/// Pressure at which the shortest lock leaves the canvas, relative to the highest of the stroke (chosen by
+/// eye).
 const LEAVING: f32 = 0.8;
 
-/// Length of the hair that full pressure lays down, relative to the hair that gives way. Of this, the share
-/// that the shortest lock lacks, and the least length in mm (chosen by the measured ends of strokes).
-const LYING: f32 = 0.6;
-const FRONT: f32 = 0.4;
-const LEAST_LYING_MM: f32 = 2.2;
-
-/// Way in mm, and change of pressure, over which a lock lands or leaves.
-const LANDS_MM: f32 = 0.3;
+/// Change of pressure over which one lock leaves.
 const LEAVES: f32 = 0.05;
-
-/// Way in mm that counts as far as full pressure from none.
-const PRESSING_MM: f32 = 20.0;
 
 /// Height in mm of a lock that has not landed.
 const RAISED_MM: f32 = 1.5;
 
-/// Distance in mm between the middles of two tufts of a fan, and along a stroke over which they move
-/// (chosen by eye).
+/// Hair that lies on the canvas, relative to the hair that gives way (chosen by the measured ends of strokes,
+/// as the next two).
+const LYING: f32 = 0.6;
+
+/// Share of the lying hair that the shortest lock lacks.
+const FRONT: f32 = 0.4;
+
+/// Least length in mm of the lying hair of a lock.
+const LEAST_LYING_MM: f32 = 2.2;
+
+/// Distance in mm between the middles of two tufts of a fan (chosen by eye).
 const TUFT_MM: f32 = 0.9;
-const TUFTS_MOVE_MM: f32 = 40.0;
+
+/// Distance in mm along a stroke over which the tufts change (chosen by eye).
+const TUFTS_CHANGE_MM: f32 = 40.0;
 
 /// The hair of one column of paint cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -85,19 +93,22 @@ pub(super) struct Locks {
     most: f32,
     /// Variation of the coat between locks, relative to its mean.
     variation: f32,
+    /// Whether the hair gathers in tufts.
     tufts: bool,
-    /// Distance in mm over which the locks land, and whether they lie, land and leave each by its own length in
-    /// this stroke.
-    landing_mm: f32,
+    /// Whether locks land, lie and leave each by its own length in this stroke.
     one_by_one: bool,
-    stroke: Start,
+    /// Way in mm over which the locks land.
+    landing_mm: f32,
+    /// Length in mm of the hair that full pressure lays down.
+    lying_mm: f32,
+    /// Number of rows of paint cells.
+    rows: f32,
+    /// Length of a row in mm.
+    row_mm: f32,
+    stroke: Progress,
     /// Height of the noise at each column.
     heights: Vec<f32>,
-    /// Number of rows of paint cells, their length in mm, and the length in mm of the hair that full
-    /// pressure lays down.
-    rows: f32,
-    row_mm: f32,
-    lying_mm: f32,
+    nearby: NearbyMeans,
     /// Distance along the pattern, in units of [`CHANGE_MM`].
     along: f32,
     before: Option<((i64, i64), (f32, f32))>,
@@ -107,7 +118,7 @@ pub(super) struct Locks {
 
 impl Locks {
     /// Locks of a head `of` these proportions, `size_mm` wide, with `count` columns of paint cells, each
-    /// `column_mm` wide. Heads with different seeds have different locks.
+    /// `column_mm` wide, and `rows` rows. Heads with different seeds have different locks.
     pub(super) fn new(
         seed: u64,
         (count, rows): (usize, usize),
@@ -127,8 +138,9 @@ impl Locks {
             tufts: of.gaps,
             landing_mm,
             one_by_one: false,
-            stroke: Start::default(),
+            stroke: Progress::default(),
             heights: vec![0.0; count],
+            nearby: NearbyMeans::default(),
             rows: rows as f32,
             row_mm: of.length * size_mm as f32 / rows as f32,
             lying_mm: if of.rigid || of.spines == 1 {
@@ -170,9 +182,9 @@ impl Locks {
             let fraction = u64::from(grip.tip.0.to_bits()) << 32 | u64::from(grip.tip.1.to_bits());
             let place = (x as u64).rotate_left(20) ^ (y as u64).rotate_left(40) ^ fraction;
             self.along = random(place, 1).random_range(0.0..1000.0);
-            self.stroke = Start {
+            self.stroke = Progress {
                 way_mm: 0.0,
-                pressure: grip.pressure,
+                first: grip.pressure,
                 now: grip.pressure,
                 highest: grip.pressure,
             };
@@ -211,10 +223,11 @@ impl Locks {
             let across = column as f32 * self.column + slant;
             *height = hills.at(across, along + 0.11 * across);
         }
-        let near = Near::of(&self.heights, (NEAR_LOCKS / self.column) as usize);
+        self.nearby.update(&self.heights, (NEAR_LOCKS / self.column) as usize);
         for (column, lock) in self.columns.iter_mut().enumerate() {
             let across = column as f32 * self.column + slant;
-            let height = (HIGHER * (self.heights[column] - near.mean(column))).clamp(-1.0, 1.0);
+            let height =
+                (HIGHER * (self.heights[column] - self.nearby.mean(column))).clamp(-1.0, 1.0);
             // How much shorter the lock is than the longest. Hills are within 0.6 of 0 nearly everywhere.
             let shorter = hills.at(across + 301.5, along - 0.13 * across);
             let shorter = (0.5 + 0.85 * shorter).clamp(0.0, 1.0);
@@ -232,7 +245,7 @@ impl Locks {
             if self.tufts {
                 let across = across * (LOCK_MM / TUFT_MM);
                 let tuft =
-                    hills.at(across + 77.7, along * (CHANGE_MM / TUFTS_MOVE_MM) + 0.2 * across);
+                    hills.at(across + 77.7, along * (CHANGE_MM / TUFTS_CHANGE_MM) + 0.2 * across);
                 recess += (-5.0 * tuft).clamp(0.0, 1.0) * RAISED_MM * quanta_a_mm;
             }
             lock.recess = recess as i32;
@@ -242,44 +255,47 @@ impl Locks {
     }
 }
 
-/// Means over the columns near each column around a head.
-struct Near {
+/// Means of heights over the columns near each column around a head.
+#[derive(Debug, Clone, Default)]
+struct NearbyMeans {
     /// Sums of the heights before each column, from `reach` columns before the first.
     sums: Vec<f32>,
     reach: usize,
 }
 
-impl Near {
-    /// Means over `reach` columns on both sides, at most half of the head.
-    fn of(heights: &[f32], reach: usize) -> Self {
-        let reach = reach.min(heights.len().saturating_sub(1) / 2);
-        let around = heights.iter().cycle().skip(heights.len() - reach);
+impl NearbyMeans {
+    /// Takes means over `reach` columns on both sides, at most half of the head.
+    fn update(&mut self, heights: &[f32], reach: usize) {
+        self.reach = reach.min(heights.len().saturating_sub(1) / 2);
+        let around = heights.iter().cycle().skip(heights.len() - self.reach);
         let mut sum = 0.0;
-        let mut sums = vec![0.0];
-        sums.extend(around.take(heights.len() + 2 * reach).map(|height| {
+        self.sums.clear();
+        self.sums.push(0.0);
+        self.sums.extend(around.take(heights.len() + 2 * self.reach).map(|height| {
             sum += height;
             sum
         }));
-        Self { sums, reach }
     }
 
     fn mean(&self, column: usize) -> f32 {
-        let whole = 2 * self.reach + 1;
-        (self.sums[column + whole] - self.sums[column]) / whole as f32
+        let count = 2 * self.reach + 1;
+        (self.sums[column + count] - self.sums[column]) / count as f32
     }
 }
 
-/// How a stroke began and how far it has gone.
+/// How far a stroke has gone.
 #[derive(Debug, Clone, Copy, Default)]
-struct Start {
+struct Progress {
     way_mm: f32,
-    /// Pressure at the start, now, and the highest so far.
-    pressure: f32,
+    /// Pressure at its start.
+    first: f32,
+    /// Pressure at this moment.
     now: f32,
+    /// Highest pressure so far.
     highest: f32,
 }
 
-impl Start {
+impl Progress {
     /// Follows the hand over `way_mm` mm to this pressure. Returns whether locks land or leave meanwhile.
     fn follow(&mut self, way_mm: f32, pressure: f32, landing_mm: f32) -> bool {
         let before = self.moving(landing_mm);
@@ -289,13 +305,14 @@ impl Start {
         before || self.moving(landing_mm)
     }
 
+    /// Whether a lock lands or leaves now.
     fn moving(&self, landing_mm: f32) -> bool {
         self.landed_mm() < landing_mm + LANDS_MM || self.now < LEAVING * self.highest
     }
 
     /// How far the head has landed, in mm. Pressing it down counts as well: it spreads the head.
     fn landed_mm(&self) -> f32 {
-        self.way_mm + (self.highest - self.pressure) * PRESSING_MM
+        self.way_mm + (self.highest - self.first) * PRESSING_MM
     }
 
     /// How far a lock is raised from the canvas, 0 to 1. `shorter` is 0 for the longest lock and 1 for the
@@ -312,185 +329,6 @@ fn moved(to: i64, from: i64, to_part: f32, from_part: f32) -> f32 {
     (to - from) as f32 + to_part - from_part
 }
 
-/// Coat of a head, and the distances in mm over which it exchanges paint with the canvas.
-struct Uptake {
-    /// Thickness of the coat relative to the paint on the head: at pressure 0, and how much full
-    /// pressure adds.
-    coat: (f64, f64),
-    /// Thickness in mm, at pressure 0, of the part of the coat that does not depend on the paint
-    /// on the head.
-    film_mm: f64,
-    /// Velocity of the paint relative to the head's.
-    drag: f64,
-    /// Share of the wet paint from before the stroke that bears the head at pressure 0.
-    bearing: f64,
-    /// Distance over which the lack of a film thinner than the coat falls to 1/e.
-    deposit_mm: f64,
-    /// Distance over which the surplus of a film thicker than the coat falls to 1/e.
-    pick_up_mm: f64,
-    /// Distance over which the difference between the colours of head and canvas falls to 1/e.
-    mixing_mm: f64,
-    /// Distance over which the hair stirs 1 - 1/e of a skin into the body that it reaches.
-    shear_mm: f64,
-    /// Distance over which the differences of paint along a hair fall to 1/e.
-    wicking_mm: f64,
-    /// Distance between two flows of paint over the head.
-    wicking_every_mm: f64,
-    /// Number of flows until all hairs have had their turn. If all hairs filled at once, a stroke
-    /// would show beads.
-    turns: u32,
-    /// Width of the groups of hairs that level together. 0 if each hair levels alone.
-    spread_mm: f64,
-}
-
-/// We chose these by the measured thickness of films. For example, a flat at middle pressure leaves
-/// a film of 0.2 times its load.
-const HAIR: Uptake = Uptake {
-    coat: (0.1, 0.56),
-    film_mm: 0.0,
-    drag: 0.375,
-    bearing: 1.0,
-    deposit_mm: 0.5,
-    pick_up_mm: 5.0,
-    mixing_mm: 9.0,
-    shear_mm: 600.0,
-    wicking_mm: 1.5,
-    wicking_every_mm: 0.4,
-    turns: 4,
-    spread_mm: 0.0,
-};
-
-/// A blade scrapes off the paint higher than its edge, carries it as a bank that rolls along the
-/// edge, and lays a film from it. We chose these by the measured evenness of films.
-const BLADE: Uptake = Uptake {
-    coat: (0.02, -0.02),
-    film_mm: 0.12,
-    drag: 0.375,
-    bearing: 0.0,
-    deposit_mm: 0.2,
-    pick_up_mm: 0.2,
-    mixing_mm: 0.7,
-    shear_mm: 20.0,
-    wicking_mm: 0.1,
-    wicking_every_mm: 0.2,
-    turns: 1,
-    spread_mm: 1.5,
-};
-
-/// Pressure from which a loaded blade cuts into wet paint. Held more lightly by this much, it rides on it
-/// (chosen by eye).
-const CUTS: f64 = 0.45;
-const CUTS_OVER: f64 = 0.15;
-
-/// Height of the wet paint on which a loaded blade rides, relative to the bank that it came with, and how much
-/// its film is thicker then (chosen by the measured lightness of white on wet red).
-const CARRIED: f64 = 0.5;
-const BANK_FILM: f64 = 0.08;
-
-/// Pressure at which a blade scrapes down to the ground.
-const SCRAPES: f64 = 0.85;
-
-/// Thickness in mm of the paint that hair keeps: a lock with less lays nothing. Locks keep 0.4 to 1.6
-/// times as much (chosen by eye).
-const HELD_MM: f64 = 0.01;
-
-/// Speed in mm/s above which a hand leaves less paint, and the increase of speed that doubles what the
-/// hair keeps and halves how deep it sinks between threads (chosen by eye: a fast brush skips).
-const SLOW: f64 = 100.0;
-const FASTER: f64 = 300.0;
-
-/// Length in mm of the part of a blade, from its edge, that carries paint.
-const BANK_MM: f64 = 3.0;
-
-fn uptake(of: &Proportions) -> &'static Uptake {
-    if of.rigid { &BLADE } else { &HAIR }
-}
-
-/// Share of a difference that is gone after `distance_mm` if it falls to 1/e over `fall_mm`, in
-/// parts of 65536.
-pub(super) fn share(distance_mm: f64, fall_mm: f64) -> u32 {
-    ((1.0 - libm::exp(-distance_mm / fall_mm)) * 65536.0) as u32
-}
-
-/// Rates of a head at `pressure` (0 to 1) and speed in a sub-step of one cell of `cell_mm` mm. A blade came with
-/// a bank of `bank_mm` mm.
-/// `paint_cell_area` is the area of a cell of the head in cells of the canvas.
-pub(super) fn rates(
-    of: &Proportions,
-    (pressure, speed_mm_s): (f32, f64),
-    bank_mm: f64,
-    cell_mm: f64,
-    paint_cell_area: f64,
-) -> ExchangeRates {
-    let uptake = uptake(of);
-    let coat = (uptake.coat.0 + uptake.coat.1 * f64::from(pressure)) / paint_cell_area;
-    let fast = 1.0 + (speed_mm_s - SLOW).max(0.0) / FASTER;
-    let sink_mm = if of.rigid { 0.0 } else { f64::from(sink_mm(pressure)) / fast };
-    // A blade bends under pressure, which narrows its gap.
-    let held_mm = if of.rigid { 0.0 } else { HELD_MM * fast / paint_cell_area };
-    let film_mm = uptake.film_mm * (1.0 - f64::from(pressure) / SCRAPES).max(0.0).powi(3);
-    let pressed = f64::from(pressure);
-    let light = ((CUTS - pressed) / CUTS_OVER).clamp(0.0, 1.0);
-    let (bearing, carried_mm, film_mm) = if of.rigid && bank_mm > 0.0 {
-        (light, CARRIED * bank_mm, film_mm + light * BANK_FILM * bank_mm)
-    } else {
-        (uptake.bearing * (1.0 - pressed), 0.0, film_mm)
-    };
-    ExchangeRates {
-        release: (coat.min(1.0) * 65536.0) as u32,
-        film: quanta_from_mm(film_mm, cell_mm),
-        deposit: share(cell_mm, uptake.deposit_mm),
-        pick_up: share(cell_mm, uptake.pick_up_mm),
-        mixing: share(cell_mm, uptake.mixing_mm),
-        sink: quanta_from_mm(sink_mm, cell_mm),
-        drag: (256.0 * uptake.drag) as u32,
-        bearing: (65536.0 * bearing) as u32,
-        carried: quanta_from_mm(carried_mm, cell_mm),
-        shear: share(cell_mm, uptake.shear_mm),
-        held: quanta_from_mm(held_mm, cell_mm),
-        padding: 0,
-    }
-}
-
-/// Length of hair in mm above which paint flows along it less often, in inverse proportion to its
-/// length. A stroke takes paint from the tip, which changes the mean of long hair less, and the
-/// coat follows this mean.
-const LONG_HAIR_MM: f64 = 20.0;
-
-/// Number of rows of paint cells, from the tip, that hold the paint of a head: all `rows` for hair,
-/// only the bank at the edge for a blade. A row is `row_mm` long.
-pub(super) fn rows_with_paint(of: &Proportions, rows: usize, row_mm: f64) -> usize {
-    if of.rigid { ((BANK_MM / row_mm).ceil() as usize).clamp(1, rows) } else { rows }
-}
-
-/// Flow of paint over a head before the sub-step number `sub_step` of a stroke. In most sub-steps
-/// there is none. The head has `rows` rows of paint cells. `cell_mm` is the width of its cells and
-/// of the cells of the canvas.
-pub(super) fn wicking(of: &Proportions, sub_step: u32, rows: usize, cell_mm: f64) -> Wicking {
-    let uptake = uptake(of);
-    let with_paint = rows_with_paint(of, rows, cell_mm);
-    let longer = (with_paint as f64 * cell_mm / LONG_HAIR_MM).max(1.0);
-    let between = ((uptake.wicking_every_mm * longer / cell_mm).round() as u32).max(1);
-    if !sub_step.is_multiple_of(between) {
-        return Wicking::default();
-    }
-    // Sums over a group must fit into 32 bits.
-    let most = 2048.0 / with_paint as f64;
-    let hairs = (uptake.spread_mm / cell_mm).min(most).max(1.0) as u32;
-    let flow = sub_step / between;
-    let odd = flow % 2 == 1;
-    // All hairs take part in the first flow.
-    let turns = if flow == 0 { 1 } else { uptake.turns };
-    Wicking {
-        share: share(cell_mm * f64::from(between * uptake.turns), uptake.wicking_mm),
-        first_row: (rows - with_paint) as u32,
-        hairs,
-        shift: if odd { hairs / 2 } else { 0 },
-        turns,
-        turn: flow % turns,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::HeadShape;
@@ -501,14 +339,12 @@ mod tests {
         Locks::new(seed, (60, 60), 0.1, HeadShape::Flat.proportions(), (3.0, 0.1))
     }
 
-    /// Locks after the head moved by 50 cells from `x`.
-    fn after_a_stroke(mut locks: Locks, x: f64) -> Vec<Lock> {
+    /// Moves the head from `x` on by a cell for each pressure.
+    fn drag(locks: &mut Locks, x: f64, pressures: &[f64]) {
         locks.lift();
-        for step in 0..50 {
-            let x = x + f64::from(step);
-            let pressure = 0.5;
+        for (step, &pressure) in pressures.iter().enumerate() {
             let pose = Pose {
-                x,
+                x: x + step as f64,
                 y: 70.4,
                 pressure,
                 tilt_x_deg: 0.0,
@@ -518,6 +354,11 @@ mod tests {
             };
             locks.follow(&Grip::new(&pose, HeadShape::Flat.proportions()).unwrap());
         }
+    }
+
+    /// Locks after the head moved by 50 cells from `x`.
+    fn after_a_stroke(mut locks: Locks, x: f64) -> Vec<Lock> {
+        drag(&mut locks, x, &[0.5; 50]);
         locks.columns
     }
 
@@ -550,19 +391,7 @@ mod tests {
     fn raised(one_by_one: bool, pressures: &[f64]) -> usize {
         let mut locks = locks(1);
         locks.land_one_by_one(one_by_one);
-        locks.lift();
-        for (step, &pressure) in pressures.iter().enumerate() {
-            let pose = Pose {
-                x: 90.3 + step as f64,
-                y: 70.4,
-                pressure,
-                tilt_x_deg: 0.0,
-                tilt_y_deg: 0.0,
-                twist_deg: 0.0,
-                speed_mm_s: 0.0,
-            };
-            locks.follow(&Grip::new(&pose, HeadShape::Flat.proportions()).unwrap());
-        }
+        drag(&mut locks, 90.3, pressures);
         let high = (0.2 / 0.1 * f64::from(QUANTA_PER_CELL)) as i32;
         locks.columns.iter().filter(|lock| lock.recess > high).count()
     }
@@ -581,32 +410,10 @@ mod tests {
     }
 
     #[test]
-    fn a_fast_hand_and_dry_hair_leave_less() {
-        let of = HeadShape::Flat.proportions();
-        let [slow, fast] = [60.0, 1000.0].map(|speed| rates(of, (0.5, speed), 0.0, 0.1, 1.0));
-        assert_eq!(slow, rates(of, (0.5, 0.0), 0.0, 0.1, 1.0), "no hand is slower than slow");
-        assert!(fast.held.abs_diff(4 * slow.held) < 4 && fast.sink < slow.sink, "{fast:?}");
-    }
-
-    /// Bearing of a blade, and height up to which it is borne.
-    fn borne(pressure: f32, bank_mm: f64) -> (u32, u32) {
-        let of = HeadShape::Knife.proportions();
-        let found = rates(of, (pressure, 0.0), bank_mm, 0.1, 1.0);
-        (found.bearing, found.carried)
-    }
-
-    #[test]
-    fn a_loaded_blade_held_lightly_is_borne_by_wet_paint() {
-        assert_eq!(borne(0.3, 0.0), (0, 0), "a clean blade");
-        assert_eq!(borne(0.5, 2.0).0, 0, "pressed down");
-        assert!(borne(0.3, 2.0).0 > 65_000, "held lightly");
-        assert_eq!(borne(0.3, 2.0).1, quanta_from_mm(1.0, 0.1));
-    }
-
-    #[test]
     fn waves_longer_than_the_reach_are_taken_out_around_the_head() {
         let heights: Vec<f32> = (0..40).map(|column| f32::from(u8::from(column < 20))).collect();
-        let near = Near::of(&heights, 3);
+        let mut near = NearbyMeans::default();
+        near.update(&heights, 3);
         let means: Vec<f32> = [0, 10, 18, 21, 30, 39].map(|column| near.mean(column)).into();
         let sevenths = [4.0, 7.0, 5.0, 2.0, 0.0, 3.0];
         for (mean, wanted) in means.into_iter().zip(sevenths) {

@@ -8,6 +8,7 @@ mod relief;
 mod spines;
 mod surface;
 mod locks;
+mod uptake;
 mod footprint;
 mod head;
 mod tool;

@@ -14,9 +14,10 @@ use rayon::prelude::*;
 
 use super::footprint::{Border, Hold, Imprint};
 use super::head::Head;
-use super::locks::{Lock, share};
+use super::locks::Lock;
 use super::relief::Relief;
 use super::surface::Net;
+use super::uptake::share;
 use crate::amount::{QUANTA_PER_CELL, quanta_from_mm};
 use crate::contact::{Contact, ExchangeRates, Touch, Wicking};
 use crate::pose::Pose;

@@ -62,8 +62,8 @@ pub struct Linen {
     pub threads_per_cm: f64,
     /// Height from the gaps to the top of an average thread in mm, 0 to 2. 0.12 by default.
     pub relief_mm: f64,
-    /// How much the heights of threads differ, and of the places along them, 0 to 1. 0 by default, as in files
-    /// from before there was this setting. New canvases have 0.5.
+    /// How much threads differ in height, from each other and along their length, 0 to 1. 0 by default, so
+    /// files from before this setting keep their weave. New canvases have [`Linen::UNEVENNESS`].
     #[serde(skip_serializing_if = "is_even")]
     pub unevenness: f64,
 }
@@ -86,6 +86,9 @@ const SWING: f32 = 0.45;
 const FILLED: f32 = 0.25;
 
 impl Linen {
+    /// Unevenness of new canvases (chosen by eye).
+    pub const UNEVENNESS: f64 = 0.5;
+
     /// Heights in mm of `width` x `height` cells, each `cell_mm` wide.
     ///
     /// # Errors
@@ -108,12 +111,8 @@ impl Linen {
         let warp_heights = warp.heights(uneven, &mut random);
         Ok(heights_mm(width, height, |x, y| {
             // Where the warp is up, the weft is down.
-            let top = warp.top(x, y, weft.swing[y], &warp_heights).max(weft.top(
-                y,
-                x,
-                -warp.swing[x],
-                &weft_heights,
-            ));
+            let upper = warp.top(x, y, weft.swing[y], &warp_heights);
+            let top = upper.max(weft.top(y, x, -warp.swing[x], &weft_heights));
             let rough = 0.03 * grain.at(x as f32 * grain_step, y as f32 * grain_step);
             let filled = soft_max(top, FILLED) + rough;
             relief * (filled - FILLED) / (1.0 - FILLED)
@@ -188,7 +187,7 @@ impl Threads {
         Self { pitch, nearest, swing, threads }
     }
 
-    /// Heights of the threads.
+    /// Heights of these threads.
     fn heights(&self, uneven: f32, random: &mut ChaCha8Rng) -> ThreadHeights {
         let usual = self.threads.iter().map(|_| random.random_range(-0.3..0.3)).collect();
         ThreadHeights { usual, along: Hills::new(random), uneven, pitch: self.pitch }
@@ -215,7 +214,9 @@ impl Threads {
 
 /// Factors on the heights of threads: each thread has its own, and it changes along the thread.
 struct ThreadHeights {
+    /// Height of each thread less the mean.
     usual: Vec<f32>,
+    /// Change of the heights along the threads.
     along: Hills,
     uneven: f32,
     pitch: f32,

@@ -84,12 +84,16 @@ impl GroundKind {
         }
     }
 
-    /// Description of a ground of this kind with default relief, colour and gloss. The seed decides
+    /// Description of a new ground of this kind with default relief, colour and gloss. The seed decides
     /// the details of its relief. For example, scripts use 1 by default.
     #[must_use]
     pub fn spec(self, seed: u64) -> GroundSpec {
         match self {
-            Self::Linen => GroundRelief::Linen(Linen { seed, unevenness: 0.5, ..Linen::default() }),
+            Self::Linen => GroundRelief::Linen(Linen {
+                seed,
+                unevenness: Linen::UNEVENNESS,
+                ..Linen::default()
+            }),
             Self::Paper => GroundRelief::Paper(Paper { seed, ..Paper::default() }),
             Self::Panel => GroundRelief::Panel(Panel { seed, ..Panel::default() }),
             Self::Wood => GroundRelief::Wood(Wood { seed, ..Wood::default() }),

@@ -30,8 +30,8 @@ const BORNE: u32 = 2;
 
 /// Thickness in quanta of the film that a head leaves when you press it down on the ground: the
 /// coat that stands out beyond its hair. `mean` is the mean volume in quanta of the cells of that
-/// hair. Hair with a thick coat keeps less paint, and hair with half more than it keeps leaves its usual
-/// coat.
+/// hair. Hair lays nothing of the paint that it keeps ([`ExchangeRates::held`]). From one and a half times that
+/// on it lays its usual coat. Locks with a thick coat keep less.
 #[inline(always)]
 #[must_use]
 pub fn coat(rates: &ExchangeRates, touch: Touch, mean: u32) -> u32 {
@@ -49,9 +49,8 @@ pub fn coat(rates: &ExchangeRates, touch: Touch, mean: u32) -> u32 {
 ///
 /// A loaded head rides on a share of the paint that was there before the stroke, and lays its coat
 /// on that. This paint reaches from the ground under the hair up to the height `bed` in quanta. We
-/// count at most twice the thickness of the coat, or [`ExchangeRates::carried`]. A clean head has neither, so
-/// it digs in.
-/// Hair is never borne higher than its coat above the paint that is there now.
+/// count at most twice the thickness of the coat, or [`ExchangeRates::carried`]. A clean head has
+/// neither, so it digs in. Hair is never borne higher than its coat above the paint that is there now.
 #[inline(always)]
 #[must_use]
 pub fn penetration(

@@ -9,16 +9,17 @@
 mod failure;
 mod views;
 mod state;
+mod tip_load;
 mod open_stroke;
 mod brushes;
 mod actions;
 
 pub use actions::MERGE_TOLERANCE;
-pub use brushes::TipLoad;
 pub(crate) use brushes::check_load;
 pub use failure::PaintingError;
 pub use open_stroke::{OpenStroke, StrokeReport, TakenPaint};
 pub use state::{Brush, Painting, State, UNDO_BYTES};
+pub use tip_load::TipLoad;
 
 #[cfg(test)]
 mod tests;

@@ -9,6 +9,7 @@ use graphics::tile::{Rect, Tile, TileSet};
 
 use super::failure::PaintingError;
 use super::state::Painting;
+use super::tip_load::TipLoad;
 use crate::amount::mm_from_quanta;
 use crate::brush::{Head, HeadShape, Relief, SideBySide, StrokeTool};
 use crate::contact::{Contact, Touch};
@@ -132,13 +133,14 @@ impl OpenStroke {
             }
             let clean = CleanHead::of(self.stroke.tool, engine, id)?;
             let head = &mut painting.brushes[brush.0].head;
-            let mut bank_mm = 0.0;
-            if is_blade {
-                let quanta: u64 = engine.brush_paint(id)?.totals().into_iter().sum();
-                let cells = head.paint_grid().0 * head.rows_with_paint().len();
-                let mean = quanta as f64 / cells as f64 / head.paint_cell_area();
-                bank_mm = mean * mm_from_quanta(1, painting.cell_mm);
-            }
+            let bank_mm = if is_blade {
+                let rows = head.rows_with_paint().len();
+                let paint = engine.brush_paint(id)?;
+                let area = head.paint_cell_area();
+                TipLoad::of(&paint, rows, painting.cell_mm, area).thickness_mm()
+            } else {
+                0.0
+            };
             head.begin(bank_mm, sweeps);
             Ok(clean)
         });

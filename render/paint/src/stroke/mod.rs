@@ -139,16 +139,16 @@ pub enum StrokeError {
     Lifted,
 }
 
-/// Cells by which the side of a mark moves in a sub-step of pressing down or lifting on the spot
-/// (chosen by the measured lip at the end of a stroke).
+/// Cells by which the side of a mark moves in a sub-step of pressing down or lifting (chosen by the measured
+/// lines before the end of a stroke).
 const LIFT: f64 = 0.75;
 
-/// Cells by which a hand sweeps on in a sub-step in which it lifts a brush from its way. From a pressure
-/// of one half it sweeps on by a third of the width of the brush (chosen by eye).
+/// Cells by which the hand sweeps on in each sub-step in which it lifts the brush. From a pressure of 0.5 this
+/// is nearly half of the width of the brush (chosen by the measured ends of strokes).
 const SWEEP: f64 = 0.7;
 
-/// Number of sub-steps in which a hand comes down to the start of a path, relative to those in which it
-/// lifts the brush from there.
+/// Number of sub-steps in which the hand comes down to the start of a path, relative to those in which it
+/// would lift the brush from there (chosen so that the middle of a mark stays at the pen).
 const APPROACH: f64 = 0.66;
 
 /// Distance in mm over which the speed of the hand follows its samples. A pen's clock jitters.
@@ -158,7 +158,8 @@ const SPEED_MM: f64 = 3.0;
 const FASTEST: f64 = 5000.0;
 
 /// Iterator over the poses of a stroke. You may pass its samples in portions and still get the
-/// poses of [`substeps`] for all samples at once, equal to the bit.
+/// poses for all samples at once, equal to the bit: those of [`substeps`], unless you let the hand
+/// [sweep](Path::sweep).
 ///
 /// The curve to a sample depends on the next one, so poses lag one sample behind until you finish
 /// the path. A dab (all samples at one position and pose) does not have poses until then.
@@ -178,11 +179,11 @@ pub struct Path {
     length: f64,
     first: Option<Pose>,
     finished: bool,
-    /// Whether the hand moves on while it lifts the brush.
+    /// Whether the hand moves while it comes down and lifts the brush.
     sweeps: bool,
     /// Direction of the path at its end: a unit vector, or (0, 0) if the hand rests.
     heading: (f64, f64),
-    /// Number of poses left before `first`. `None` before we know it.
+    /// Number of poses left from coming down to `first`. `None` before we know it.
     approach: Option<usize>,
     /// Number of poses returned of a dab, or of the lifting of the brush after a path.
     ended: usize,
@@ -227,7 +228,9 @@ impl Path {
         })
     }
 
-    /// Lets the hand move on at the end of the path while it lifts the brush, unless it rests there.
+    /// Lets the hand come down along its way before the first sample, and move on after the last while it
+    /// lifts the brush. A hand that rests at an end of the path, and a dab, stay there. Call this before you
+    /// take poses.
     pub fn sweep(&mut self) {
         self.sweeps = true;
     }
@@ -249,7 +252,6 @@ impl Path {
             pose.speed_mm_s = self.speed_after(to, (&pose, sample.seconds));
             if self.samples == 1 {
                 to.speed_mm_s = pose.speed_mm_s;
-                self.first = Some(*to);
             }
         }
         let known =
@@ -259,7 +261,12 @@ impl Path {
         if substeps > MOST_SUBSTEPS as f64 {
             return Err(StrokeError::TooLong(substeps));
         }
-        self.first = if self.samples == 0 { Some(pose) } else { self.first };
+        // The first sample has the speed of the hand to the second.
+        self.first = match self.samples {
+            0 => Some(pose),
+            1 => to,
+            _ => self.first,
+        };
         self.samples += 1;
         self.seconds = sample.seconds;
         self.recent = [from, to, Some(pose)];

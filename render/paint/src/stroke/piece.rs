@@ -10,6 +10,7 @@ const MOST_PRESSURE: f64 = 1.0 / 16.0;
 pub(super) fn most_pressure(reach: f64) -> f64 {
     MOST_PRESSURE.min(0.5 / reach)
 }
+
 /// Maximum change of tilt or twist in a sub-step, in degrees (chosen by eye).
 const MOST_DEGREES: f64 = 3.0;
 
