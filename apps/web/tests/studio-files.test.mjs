@@ -125,8 +125,7 @@ test("the browser's own dialog opens a file", async () => {
   const choosing = page.waitForEvent("filechooser", { timeout: 60_000 });
   // The browser must know first that the test takes its dialog.
   await page.evaluate(() => document.hasFocus());
-  await page.keyboard.press("Control+o");
-  await dialog(page);
+  await dialog(page, () => page.keyboard.press("Control+o"));
   // Where the frame came too late for the browser, its dialog opens at the next press.
   await page.mouse.click(640, 5);
   const chooser = await choosing;

@@ -71,7 +71,7 @@ test("strokes with pressure, tilt and rotation, undo, redo and light: the progra
   await page.screenshot({ path: resolve(pictures, "studio-lamp.png") });
 
   const painting = await confirmed(page, stage.folder, () => page.keyboard.press("Control+s"));
-  const recording = await confirmed(page, stage.folder, () => fromFileMenu(page, "saveRecording"));
+  const recording = await confirmed(page, stage.folder, (trial) => fromFileMenu(page, "saveRecording", trial));
   const script = JSON.parse(readFileSync(recording));
   const strokes = script.actions.flatMap((action) => action.stroke ?? []);
   assert.equal(strokes.length, 3, "the stroke that was undone is recorded as well");
@@ -140,7 +140,7 @@ test("a browser that reports the pressure 0.5 for every pen: it follows from the
   const told = "This browser reports no pressure of the pen: it follows from the speed, as with a mouse";
   assert.deepEqual((await inspect(page)).notices, [told], "told once");
   await page.screenshot({ path: resolve(pictures, "studio-no-pressure.png") });
-  const recording = await confirmed(page, stage.folder, () => fromFileMenu(page, "saveRecording"));
+  const recording = await confirmed(page, stage.folder, (trial) => fromFileMenu(page, "saveRecording", trial));
   const strokes = JSON.parse(readFileSync(recording)).actions.flatMap((action) => action.stroke ?? []);
   for (const { samples } of strokes) {
     const pressures = samples.map((sample) => sample[3]);

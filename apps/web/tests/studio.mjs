@@ -127,10 +127,10 @@ export async function fingers(page) {
 /** Places of entries in the File menu of the window of 1280 x 800 pixels. */
 const FILE_MENU = { sample: 97, saveRecording: 253 };
 
-/** Chooses an entry of the File menu. */
-export async function fromFileMenu(page, entry) {
+/** Chooses an entry of the File menu, in the first trial or a later one: it waits longer for the menu each time. */
+export async function fromFileMenu(page, entry, trial = 1) {
   await page.mouse.click(18, 13);
-  await page.waitForTimeout(300);
+  await page.waitForTimeout(300 * trial);
   await page.mouse.click(60, FILE_MENU[entry]);
 }
 
@@ -150,9 +150,19 @@ export async function fromViewMenu(page, entry, condition) {
   if (!condition(await inspect(page))) throw new Error(`${entry} of the View menu was not chosen`);
 }
 
-/** Waits until a dialog is open, and has been drawn. */
-export async function dialog(page) {
-  await page.waitForFunction(() => window.impasto.inspect()?.dialog, null, { timeout: 60_000 });
+/**
+ * Opens a dialog by `act` and waits until it has been drawn. A slow page may miss an act: it is done again, and takes
+ * the number of the trial.
+ */
+export async function dialog(page, act) {
+  for (let trial = 1; ; trial++) {
+    await act(trial);
+    const open = page.waitForFunction(() => window.impasto.inspect()?.dialog, null, { timeout: 20_000 });
+    const missed = await open.then(() => null, (error) => error);
+    if (missed === null) break;
+    if (trial === 4) throw missed;
+    await page.keyboard.press("Escape");
+  }
   await page.waitForTimeout(400);
 }
 
@@ -177,8 +187,7 @@ export async function confirm(page) {
 
 /** Saves under the names that the dialogs propose, the first of which `open` opens. Returns the path of the download. */
 export const confirmed = (page, folder, open) => downloaded(page, folder, async () => {
-  await open();
-  await dialog(page);
+  await dialog(page, open);
   await confirm(page);
 });
 

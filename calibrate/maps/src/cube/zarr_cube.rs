@@ -97,7 +97,7 @@ fn axes(array: &ZarrArray) -> Result<[usize; 3], CubeError> {
         array.about.dimensions.iter().map(|name| name.to_lowercase()).collect();
     let [band, row] = [&BAND_AXES[..], &ROW_AXES]
         .map(|wanted| names.iter().position(|name| wanted.contains(&name.as_str())));
-    let (Some(band), 3) = (band, array.about.shape.len()) else {
+    let (Some(band), 3, 3) = (band, array.about.shape.len(), names.len()) else {
         return Err(CubeError::format(
             &array.folder,
             format!(

@@ -493,6 +493,12 @@ fn arrays_of_other_kinds_are_refused() {
         ),
         ("reflectance", "data_type", json!("complex64"), "no real numbers"),
         ("reflectance", "dimension_names", json!(["a", "b", "c"]), "expected y, x and wavelength"),
+        (
+            "reflectance",
+            "dimension_names",
+            json!(["y", "y", "x", "wavelength"]),
+            "expected y, x and wavelength",
+        ),
         ("reflectance", "shape", json!([5, 7]), "holds no array of three axes"),
         ("reflectance", "shape", json!([5, 7, 3]), "has 4 wavelengths, the cube 3 bands"),
         ("reflectance", "chunk_grid", json!({"name": "rectangular"}), "has the chunk grid"),
