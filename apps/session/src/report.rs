@@ -516,7 +516,7 @@ mod tests {
     use graphics::field::Field;
     use graphics::gpu::BackendChoice;
     use graphics::tile::Rect;
-    use paint::amount::mm_from_quanta;
+    use paint::amount::{mm_from_quanta, quanta_from_mm};
     use paint::document::{Document, Lighting, Medium};
     use paint::ground::Ground;
     use paint::light::Light;
@@ -652,6 +652,7 @@ mod tests {
             Document::bare("", cell_mm, ground, library, medium, slots, Lighting::default());
         let mut cell = document.wet.cell(0);
         (cell.pigments[1], cell.pigments[4]) = (quanta[0], quanta[1]);
+        cell.vehicle = quanta_from_mm(0.2, cell_mm);
         document.wet.set_cell(0, cell);
         let wanted = SpectralDocument::full(&document).measured_reflectance(0, 0);
         let mm = quanta.map(|quanta| mm_from_quanta(1, cell_mm) * f64::from(quanta));

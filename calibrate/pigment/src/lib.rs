@@ -34,6 +34,7 @@ pub mod smooth_reflectance;
 mod color_index;
 pub mod library;
 pub mod color;
+pub mod thin_films;
 pub mod curation;
 pub mod quadrature;
 pub mod palette;

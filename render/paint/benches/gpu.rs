@@ -95,7 +95,7 @@ fn scene(dry: usize) -> Scene {
     let table = std::array::from_fn(|slot| {
         std::array::from_fn(|node| 1e-7 * (1 + (slot * 3 + node * 5) % 11) as f32)
     });
-    let coat = LayerOptics { absorption: table, scattering: table };
+    let coat = LayerOptics { absorption: table, scattering: table, covers: [2e-5; SLOTS + 1] };
     let gloss = Gloss { strength: 0.25, exponent: 60.0 };
     Scene {
         ground: [0.8; NODES],

@@ -3,10 +3,10 @@
 
 use divan::{Bencher, counter::ItemsCount};
 use graphics::field::Field;
-use paint::composite::composite_row;
+use paint::composite::composite_layer_row;
 use paint::document::{Document, DryLayer, LayerId, Lighting, Medium};
 use paint::ground::Ground;
-use paint::layer::{Layer, SLOTS};
+use paint::layer::Layer;
 use paint::light::{Light, Mixer};
 use paint::optics::{Gloss, NODES, Scene};
 use paint::scene::{picture, scene};
@@ -70,11 +70,15 @@ fn painting(width: usize, height: usize) -> (Document, Scene) {
 #[divan::bench]
 fn one_layer(bencher: Bencher) {
     let (document, scene) = painting(WIDTH, 4);
-    let cells = document.wet.pigments.values();
+    let cells = document.wet.vehicle.values().len();
     bencher
-        .counter(ItemsCount::new(cells.len()))
-        .with_inputs(|| vec![scene.ground; cells.len()])
-        .bench_local_refs(|internal| composite_row(&scene.wet, cells, internal));
+        .counter(ItemsCount::new(cells))
+        .with_inputs(|| vec![scene.ground; cells])
+        .bench_local_refs(|internal| {
+            for (y, internal) in internal.chunks_mut(WIDTH).enumerate() {
+                composite_layer_row(&scene.wet, &document.wet, (0, y), internal);
+            }
+        });
 }
 
 /// One layer to linear RGB without relief, rows in parallel on `threads` threads.
@@ -84,16 +88,15 @@ fn one_layer_to_rgb(bencher: Bencher, threads: usize) {
     scene.lamp.relief = 0.0;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
     let level = Tops::level(WIDTH, 1);
-    let cells = document.wet.pigments.values();
-    let mut out = vec![[0.0; 4]; cells.len()];
-    bencher.counter(ItemsCount::new(cells.len())).bench_local(|| {
+    let mut out = vec![[0.0; 4]; document.wet.vehicle.values().len()];
+    bencher.counter(ItemsCount::new(out.len())).bench_local(|| {
         pool.install(|| {
-            let rows = cells.par_chunks(WIDTH).zip(out.par_chunks_mut(WIDTH));
+            let rows = out.par_chunks_mut(WIDTH).enumerate();
             rows.for_each_init(
                 || vec![scene.ground; WIDTH],
-                |internal: &mut Vec<[f32; NODES]>, (cells, out): (&[[u32; SLOTS]], &mut [_])| {
+                |internal: &mut Vec<[f32; NODES]>, (y, out): (usize, &mut [_])| {
                     internal.fill(scene.ground);
-                    composite_row(&scene.wet, cells, internal);
+                    composite_layer_row(&scene.wet, &document.wet, (0, y), internal);
                     shade_row(&scene, (&level, (0, 0)), internal, &[TopMaterial::Wet; WIDTH], out);
                 },
             );

@@ -10,6 +10,8 @@ struct Nodes {
 struct LayerOptics {
     absorption: array<vec4<f32>, 16>,
     scattering: array<vec4<f32>, 16>,
+    // Shares of a cell that a quantum covers: of slots 0 to 3, of slots 4 to 7, and of vehicle.
+    covers: array<vec4<f32>, 3>,
 }
 
 // Computes 1 - exp(-y), given e = exp(-y). Where this difference would lose digits, a series
@@ -45,8 +47,7 @@ struct Sums {
 
 // Adds one slot's K and S. The uniform `params` of the including shader has a field `layer`, since
 // uniforms cannot be passed to functions.
-fn with_slot(sums: Sums, slot: u32, quanta: u32) -> Sums {
-    let amount = f32(quanta);
+fn with_slot(sums: Sums, slot: u32, amount: f32) -> Sums {
     return Sums(
         Nodes(
             sums.k.low + amount * params.layer.absorption[2u * slot],
@@ -59,19 +60,32 @@ fn with_slot(sums: Sums, slot: u32, quanta: u32) -> Sums {
     );
 }
 
-// Composites the amounts `low` and `high`, in quanta by slot, over `backing`. We unroll this, since
-// a variable index would send the vectors through memory.
-fn composite(low: vec4<u32>, high: vec4<u32>, backing: Nodes) -> Nodes {
-    var sums = with_slot(Sums(), 0u, low.x);
-    sums = with_slot(sums, 1u, low.y);
-    sums = with_slot(sums, 2u, low.z);
-    sums = with_slot(sums, 3u, low.w);
-    sums = with_slot(sums, 4u, high.x);
-    sums = with_slot(sums, 5u, high.y);
-    sums = with_slot(sums, 6u, high.z);
-    sums = with_slot(sums, 7u, high.w);
-    return Nodes(
-        film(sums.k.low, sums.s.low, backing.low),
-        film(sums.k.high, sums.s.high, backing.high),
-    );
+// Part of a cell that a film covers, above 1 for a thick one; see composite.rs.
+fn covered_part(cell: Cell) -> f32 {
+    let low = dot(vec4<f32>(cell.low), params.layer.covers[0]);
+    let high = dot(vec4<f32>(cell.high), params.layer.covers[1]);
+    return low + high + f32(cell.vehicle) * params.layer.covers[2].x;
+}
+
+// Composites the film of `cell` over `backing`. `covered` is what it covers, for a skin together with its body. We
+// unroll this, since a variable index would send the vectors through memory.
+fn composite(cell: Cell, covered: f32, backing: Nodes) -> Nodes {
+    let low = vec4<f32>(cell.low);
+    let high = vec4<f32>(cell.high);
+    let share = select(1.0, covered, covered > 0.0 && covered < 1.0);
+    let thickening = 1.0 / share;
+    let thick_low = thickening * low;
+    let thick_high = thickening * high;
+    var sums = with_slot(Sums(), 0u, thick_low.x);
+    sums = with_slot(sums, 1u, thick_low.y);
+    sums = with_slot(sums, 2u, thick_low.z);
+    sums = with_slot(sums, 3u, thick_low.w);
+    sums = with_slot(sums, 4u, thick_high.x);
+    sums = with_slot(sums, 5u, thick_high.y);
+    sums = with_slot(sums, 6u, thick_high.z);
+    sums = with_slot(sums, 7u, thick_high.w);
+    // With `mix`, an empty skin would change the last bit of what is below.
+    let over_low = film(sums.k.low, sums.s.low, backing.low) - backing.low;
+    let over_high = film(sums.k.high, sums.s.high, backing.high) - backing.high;
+    return Nodes(backing.low + share * over_low, backing.high + share * over_high);
 }

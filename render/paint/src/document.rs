@@ -72,10 +72,20 @@ pub struct Medium {
     /// where you lay it. Files leave this out for tube paint.
     #[serde(default = "tube_paint", skip_serializing_if = "is_tube_paint")]
     pub stiffness: f64,
+    /// Whether thin paint covers only a part of its cell, see [`covers`](crate::optics::covers): hair and
+    /// knife leave little paint in furrows and crumbs. Set it to false for films that are even however thin they
+    /// are. Files leave this out for false.
+    #[serde(default, skip_serializing_if = "is_not")]
+    pub films_break: bool,
     /// Gloss of wet paint.
     pub wet: Gloss,
     /// Gloss of dry paint.
     pub dry: Gloss,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
+fn is_not(breaks: &bool) -> bool {
+    !breaks
 }
 
 /// Stiffness of paint from the tube (chosen by eye).
@@ -95,6 +105,7 @@ impl Default for Medium {
         Self {
             scattering_per_mm: 50.0,
             stiffness: tube_paint(),
+            films_break: true,
             wet: Gloss { strength: 0.25, exponent: 60.0 },
             dry: Gloss { strength: 0.06, exponent: 20.0 },
         }

@@ -100,6 +100,15 @@ pub struct Layer {
     pub skin: Option<Box<Layer>>,
 }
 
+/// A row of cells of one film.
+#[derive(Debug, Clone, Copy)]
+pub struct FilmRow<'a> {
+    /// Amount of each pigment's paint in quanta, by slot.
+    pub pigments: &'a [[u32; SLOTS]],
+    /// Amount of vehicle in quanta. Empty if no cell has any.
+    pub vehicle: &'a [u32],
+}
+
 /// Layers are equal if all amounts are. A skin without paint equals no skin.
 impl PartialEq for Layer {
     fn eq(&self, other: &Self) -> bool {
@@ -187,6 +196,16 @@ impl Layer {
     pub fn painted_skin(&self) -> Option<&Self> {
         let skin = self.skin.as_deref();
         skin.filter(|skin| (0..skin.vehicle.values().len()).any(|i| skin.cell(i).volume() > 0))
+    }
+
+    /// The body of `count` cells from column `x` of row `y`.
+    ///
+    /// # Panics
+    /// If the layer does not have these cells.
+    #[must_use]
+    pub fn row(&self, y: usize, x: usize, count: usize) -> FilmRow<'_> {
+        let pigments = self.pigments.row(y, x, count);
+        FilmRow { pigments, vehicle: self.vehicle.row(y, x, count) }
     }
 
     /// The body and the skin as layers of one film, the lower first. One layer if there is no skin.

@@ -10,6 +10,7 @@ use documents::{Task, hint::Explain};
 use graphics::lanes::{greater, lesser, multiply_add};
 use pigment::library::{PigmentLibrary, RecipeError};
 use pigment::quadrature::{EffectiveQuadrature, Quadrature, QuadratureFailure};
+use pigment::thin_films::least_films;
 use pigment::{PigmentId, evaluate::Viewing};
 use pulp::Simd;
 use spectra::color::{Adaptation, RgbSpace};
@@ -89,6 +90,8 @@ pub struct Light {
     /// Linear sRGB of reflectance 1 at each wavelength, adapted from the light's white to D65
     /// by Bradford's transform. They sum to (1, 1, 1) up to rounding.
     pub rgb_from_nodes: [[f32; 3]; NODES],
+    /// Least thickness of a film of each pigment, see [`least_films`]. The light does not matter.
+    pub least_films: Vec<f64>,
 }
 
 impl Light {
@@ -100,7 +103,8 @@ impl Light {
     pub fn new(library: &PigmentLibrary, viewing: &Viewing) -> Result<Self, PaintLightError> {
         let quadrature = quadrature(library, viewing)?;
         let rgb_from_nodes = rgb_from_nodes(&quadrature.rule, 1.0).map(|rgb| rgb.map(|v| v as f32));
-        Ok(Self { viewing: viewing.clone(), quadrature, rgb_from_nodes })
+        let least_films = least_films(library);
+        Ok(Self { viewing: viewing.clone(), quadrature, rgb_from_nodes, least_films })
     }
 
     /// Linear sRGB of reflectance 1 at each wavelength, for an eye that adapted to the light by

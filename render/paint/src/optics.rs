@@ -20,6 +20,40 @@ pub struct LayerOptics {
     pub absorption: [[f32; NODES]; SLOTS],
     /// Scattering S per quantum, by slot and wavelength.
     pub scattering: [[f32; NODES]; SLOTS],
+    /// Shares of a cell that a quantum covers, see [`covers`].
+    pub covers: [f32; SLOTS + 1],
+}
+
+impl LayerOptics {
+    /// Optics of a layer without pigments.
+    pub const EMPTY: Self = Self {
+        absorption: [[0.0; NODES]; SLOTS],
+        scattering: [[0.0; NODES]; SLOTS],
+        covers: [1.0; SLOTS + 1],
+    };
+}
+
+/// Height in mm from which on vehicle levels paint to a film, however little pigment is in it. We chose it by eye.
+pub const LEVELLING_MM: f64 = 0.01;
+
+/// Shares of a cell that a quantum of each slot's paint covers, then one of vehicle, 0 to 1. `least_films` holds the
+/// least thickness of a film of each pigment ([`pigment::thin_films::least_films`]), `thickness_per_quantum` comes
+/// from [`thickness_per_quantum`], and `cell_mm` is the width of a cell. 1 for films that are even however
+/// thin they are.
+#[must_use]
+pub fn covers(
+    slots: &Slots,
+    least_films: &[f64],
+    thickness_per_quantum: f64,
+    cell_mm: f64,
+) -> [f64; SLOTS + 1] {
+    let vehicle = cell_mm / f64::from(QUANTA_PER_CELL) / LEVELLING_MM;
+    let mut covers = [vehicle.min(1.0); SLOTS + 1];
+    for (share, slot) in covers.iter_mut().zip(slots) {
+        let least = slot.map_or(0.0, |pigment| least_films[pigment.index()]);
+        *share = (thickness_per_quantum / least).min(1.0);
+    }
+    covers
 }
 
 /// Specular highlight of one material (Blinn 1977).
@@ -112,7 +146,7 @@ pub(crate) fn scaled(at_nodes: &[f64], scale: f64) -> [f32; NODES] {
 
 /// Computes K and S of a layer per quantum. `slots` holds pigments of the library that
 /// `quadrature` was made for, `thickness_per_quantum` comes from [`thickness_per_quantum`],
-/// and `opacity` multiplies all K and S (1 leaves them as measured).
+/// and `opacity` multiplies all K and S (1 leaves them as measured). The films are even.
 ///
 /// # Panics
 /// If a slot holds a pigment that the quadrature lacks, or if the quadrature does not have
@@ -130,7 +164,7 @@ pub fn layer_optics(
             None => [0.0; NODES],
         })
     });
-    LayerOptics { absorption, scattering }
+    LayerOptics { absorption, scattering, covers: [1.0; SLOTS + 1] }
 }
 
 /// Converts the surface of a library's films to f32.

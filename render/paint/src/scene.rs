@@ -8,17 +8,19 @@
 use documents::hint::Explain;
 use graphics::field::Field;
 use pigment::quadrature::EffectiveQuadrature;
+use pigment::thin_films::least_films;
 use pigment::{PigmentId, library::PigmentLibrary};
 use rayon::prelude::*;
 use spectra::optics::{Layer as Film, Surface};
 
-use crate::composite::composite_row;
+use crate::composite::composite_layer_row;
 use crate::document::{Document, Lighting, Medium, Slots};
 use crate::ground::Ground;
 use crate::layer::{Cell, Layer, SLOTS};
 use crate::light::Light;
 use crate::optics::{
-    Lamp, NODES, Scene, at_nodes, layer_optics, scene_surface, thickness_per_quantum,
+    Lamp, LayerOptics, NODES, Scene, at_nodes, covers, layer_optics, scene_surface,
+    thickness_per_quantum,
 };
 use crate::shade::{TopMaterial, Tops, color_row, relieve_row, shade_row};
 
@@ -63,20 +65,30 @@ impl<'a> Appearance<'a> {
         Self { library, medium, ground, cell_mm: *cell_mm, dry, slots, lighting }
     }
 
+    /// Shares of a cell that a quantum of each slot and of vehicle covers, see [`covers`].
+    fn covers(&self, slots: &Slots, least_films: &[f64]) -> [f64; SLOTS + 1] {
+        let Self { medium, cell_mm, .. } = *self;
+        if !medium.films_break {
+            return [1.0; SLOTS + 1];
+        }
+        let thickness = thickness_per_quantum(cell_mm, medium.scattering_per_mm);
+        covers(slots, least_films, thickness, cell_mm)
+    }
+
     /// Parameters that convert paint to linear sRGB under `light`, see [`scene`].
     #[must_use]
     pub fn scene(&self, light: &Light) -> Scene {
         let Self { library, medium, ground, lighting, .. } = *self;
         let thickness = thickness_per_quantum(self.cell_mm, medium.scattering_per_mm);
+        let optics = |slots: &Slots, opacity: f64| LayerOptics {
+            covers: self.covers(slots, &light.least_films).map(|share| share as f32),
+            ..layer_optics(slots, &light.quadrature, thickness, opacity)
+        };
         let below = internal_ground(library, &ground.reflectance);
         Scene {
             ground: at_nodes(&light.quadrature.rule, library.grid, &below, 1.0),
-            dry: self
-                .dry
-                .iter()
-                .map(|(slots, opacity)| layer_optics(slots, &light.quadrature, thickness, *opacity))
-                .collect(),
-            wet: layer_optics(self.slots, &light.quadrature, thickness, 1.0),
+            dry: self.dry.iter().map(|(slots, opacity)| optics(slots, *opacity)).collect(),
+            wet: optics(self.slots, 1.0),
             surface: scene_surface(&library.saunderson),
             rgb_from_nodes: light.rgb_at_degree(lighting.adaptation),
             lamp: Lamp {
@@ -157,9 +169,7 @@ fn lay_row(
     let dry = dry.map(|layer| (TopMaterial::Dry, layer));
     let wet = wet.map(|layer| (TopMaterial::Wet, layer));
     for (material, (layer, optics)) in dry.chain(wet).take(layers) {
-        for film in layer.single_films() {
-            composite_row(optics, film.pigments.row(y, 0, film.width()), internal);
-        }
+        composite_layer_row(optics, layer, (0, y), internal);
         mark(layer, y, material, materials);
     }
 }
@@ -381,6 +391,8 @@ pub struct SpectralStack {
     ground: Vec<f64>,
     /// K and S of the layers, lowest first, the wet layer last.
     optics: Vec<Optics>,
+    /// Shares of a cell that a quantum of each slot and of vehicle covers, by layer.
+    covers: Vec<[f64; SLOTS + 1]>,
 }
 
 /// K and S per quantum, by wavelength and slot.
@@ -432,7 +444,10 @@ impl SpectralStack {
             optics
         });
         let optics = optics.collect();
-        Self { surface: library.saunderson, ground, optics }
+        let least_films = least_films(library);
+        let slots = appearance.dry.iter().map(|(slots, _)| slots).chain([appearance.slots]);
+        let covers = slots.map(|slots| appearance.covers(slots, &least_films)).collect();
+        Self { surface: library.saunderson, ground, optics, covers }
     }
 
     /// Number of wavelengths.
@@ -445,19 +460,13 @@ impl SpectralStack {
     /// each pigment in the body and the skin of each layer, lowest first.
     pub fn measured_reflectance(&self, layers: impl IntoIterator<Item = [Cell; 2]>) -> Vec<f64> {
         let mut internal = self.ground.clone();
-        let films = layers.into_iter().zip(&self.optics);
-        for (film, optics) in films.flat_map(|(films, optics)| films.map(|film| (film, optics))) {
-            let amounts = film.pigments.map(f64::from);
-            if amounts == [0.0; SLOTS] {
-                continue;
-            }
-            for (reflectance, optics) in internal.iter_mut().zip(optics) {
-                let mut sum = [0.0; 2];
-                for (amount, [k, s]) in amounts.iter().zip(optics) {
-                    sum[0] += amount * k;
-                    sum[1] += amount * s;
+        for ((films, optics), covers) in layers.into_iter().zip(&self.optics).zip(&self.covers) {
+            for (film, share) in films.iter().zip(covered_shares(&films, covers)) {
+                for (reflectance, optics) in internal.iter_mut().zip(optics) {
+                    let [k, s] = optical_thickness(film, optics);
+                    let covered = Film::new(k / share, s / share, 1.0).over(*reflectance);
+                    *reflectance += share * (covered - *reflectance);
                 }
-                *reflectance = Film::new(sum[0], sum[1], 1.0).over(*reflectance);
             }
         }
         internal.into_iter().map(|r| self.surface.measured_from_internal(r)).collect()
@@ -470,26 +479,43 @@ impl SpectralStack {
     /// it. This part is the film's share. All wavelengths count alike. We leave the rest to the
     /// films below.
     pub fn seen(&self, layers: impl IntoIterator<Item = [Cell; 2]>) -> Vec<f64> {
-        let columns: Vec<[f64; SLOTS]> =
-            layers.into_iter().flatten().map(|film| film.pigments.map(f64::from)).collect();
-        let optics = self.optics.iter().flat_map(|optics| [optics, optics]);
-        let optics: Vec<&Optics> = optics.take(columns.len()).collect();
-        let mut parts = vec![0.0; columns.len() + 1];
+        let layers: Vec<[Cell; 2]> = layers.into_iter().collect();
+        let mut parts = vec![0.0; 2 * layers.len() + 1];
         let mut rest = vec![1.0; self.count()];
-        for (index, (amounts, optics)) in columns.iter().zip(optics).enumerate().rev() {
-            for (rest, optics) in rest.iter_mut().zip(optics) {
-                let [k, s] = [0, 1]
-                    .map(|part| amounts.iter().zip(optics).map(|(a, o)| a * o[part]).sum::<f64>());
-                let film = Film::new(k, s, 1.0);
-                let passed = *rest * (film.over(1.0) - film.over(0.0)).clamp(0.0, 1.0);
-                parts[index + 1] += *rest - passed;
-                *rest = passed;
+        for (index, films) in layers.iter().enumerate().rev() {
+            let shares = covered_shares(films, &self.covers[index]);
+            for ((film, share), place) in films.iter().zip(shares).zip([1, 2]).rev() {
+                for (rest, optics) in rest.iter_mut().zip(&self.optics[index]) {
+                    let [k, s] = optical_thickness(film, optics);
+                    let film = Film::new(k / share, s / share, 1.0);
+                    let passed = (film.over(1.0) - film.over(0.0)).clamp(0.0, 1.0);
+                    let hidden = *rest * share * (1.0 - passed);
+                    parts[2 * index + place] += hidden;
+                    *rest -= hidden;
+                }
             }
         }
         parts[0] = rest.iter().sum();
         let count = self.count().max(1) as f64;
         parts.into_iter().map(|part| part / count).collect()
     }
+}
+
+/// Parts of a cell that body and skin cover, above 0 to 1; see [`crate::composite`].
+fn covered_shares(films: &[Cell; 2], covers: &[f64; SLOTS + 1]) -> [f64; 2] {
+    let [body, skin] = films.map(|film| -> f64 {
+        let amounts = film.pigments.into_iter().chain([film.vehicle]);
+        amounts.zip(covers).map(|(amount, share)| f64::from(amount) * share).sum()
+    });
+    [body, body + skin].map(|covered| if covered > 0.0 { covered.min(1.0) } else { 1.0 })
+}
+
+/// K d and S d of a film at one wavelength.
+fn optical_thickness(film: &Cell, optics: &[[f64; 2]; SLOTS]) -> [f64; 2] {
+    let pairs = film.pigments.iter().zip(optics);
+    pairs.fold([0.0; 2], |[k, s], (&amount, optics)| {
+        [k + f64::from(amount) * optics[0], s + f64::from(amount) * optics[1]]
+    })
 }
 
 /// Tells you which paint you see at a cell.

@@ -5,7 +5,7 @@ use graphics::tile::TileSet;
 use paint::View;
 use paint::amount::QUANTA_PER_CELL;
 use paint::engine::PaintEngine;
-use paint::layer::{Cell, Layer, SLOTS};
+use paint::layer::{Cell, Layer};
 use paint::optics::{Gloss, Lamp, LayerOptics, NODES, Scene, SceneSurface};
 use paint::shade::{MOST, ReliefLamp, SOFT, Tap};
 use rand::{RngExt, SeedableRng};
@@ -19,9 +19,6 @@ const NEAR: f64 = 3e-6;
 /// Tolerance for three layers of two films with relief and gloss. For three layers of one film the largest error on
 /// lavapipe is 1.9e-6.
 const NEAR_STACK: f64 = 2e-5;
-
-const NO_LAYER: LayerOptics =
-    LayerOptics { absorption: [[0.0; NODES]; SLOTS], scattering: [[0.0; NODES]; SLOTS] };
 
 fn flat_scene(ground: f32, wet: LayerOptics, dry: Vec<LayerOptics>) -> Scene {
     let gloss = Gloss { strength: 0.25, exponent: 60.0 };
@@ -100,7 +97,7 @@ fn a_film_is_that_of_the_layer_equations_from_nothing_to_huge() {
     }
     for per_quantum in [1e-9, 1e-7, 1e-5] {
         for ground in [0.0, 0.04, 0.5, 1.0] {
-            let mut coat = NO_LAYER;
+            let mut coat = LayerOptics::EMPTY;
             // Absorption falls over the wavelengths, while scattering rises.
             coat.absorption[0] = std::array::from_fn(|i| per_quantum * (8 - i) as f32);
             coat.scattering[1] = std::array::from_fn(|i| per_quantum * (1 + i) as f32);
@@ -141,7 +138,9 @@ fn painted(rng: &mut ChaCha8Rng, size: usize) -> Layer {
 fn any_layer(rng: &mut ChaCha8Rng) -> LayerOptics {
     let [absorption, scattering] = [(); 2]
         .map(|()| std::array::from_fn(|_| std::array::from_fn(|_| rng.random_range(0.0..4e-6))));
-    LayerOptics { absorption, scattering }
+    // About half of the cells are covered.
+    let covers = std::array::from_fn(|_| rng.random_range(0.0..3e-6));
+    LayerOptics { absorption, scattering, covers }
 }
 
 #[test]
@@ -178,8 +177,21 @@ fn layers_relief_and_gloss_are_those_of_the_formulas() {
         let nodes = std::array::from_fn(|node| {
             let stack = layers.iter().zip(&coats);
             let ground = f64::from(scene.ground[node]);
-            let films = stack.flat_map(|(paint, coat)| paint.films(i).map(|film| (film, coat)));
-            films.fold(ground, |backing, (cell, coat)| film(coat, &cell, node, backing))
+            stack.fold(ground, |ground, (paint, coat)| {
+                let mut covered = 0.0;
+                paint.films(i).into_iter().fold(ground, |bare, cell| {
+                    let amounts = cell.pigments.into_iter().chain([cell.vehicle]).zip(coat.covers);
+                    covered +=
+                        amounts.map(|(a, share)| f64::from(a) * f64::from(share)).sum::<f64>();
+                    let share = if covered > 0.0 { covered.min(1.0) } else { 1.0 };
+                    let thicker = LayerOptics {
+                        absorption: coat.absorption.map(|slot| slot.map(|k| k / share as f32)),
+                        scattering: coat.scattering.map(|slot| slot.map(|s| s / share as f32)),
+                        ..*coat
+                    };
+                    bare + share * (film(&thicker, &cell, node, bare) - bare)
+                })
+            })
         });
         let at = ((i % SIZE) as isize, (i / SIZE) as isize);
         let gloss = match bare(&layers, i) {
@@ -253,12 +265,19 @@ fn only_the_tiles_that_are_named_change() {
     let Some(device) = crate::device() else { return };
     let mut engine = PaintEngine::on_device(device, &Field::filled(200, 130, 0)).unwrap();
     let all = TileSet::all(engine.bounds());
-    engine.render(View::First, &flat_scene(0.5, NO_LAYER, Vec::new()), &all, &all).unwrap();
+    engine
+        .render(View::First, &flat_scene(0.5, LayerOptics::EMPTY, Vec::new()), &all, &all)
+        .unwrap();
     let before = engine.picture().unwrap();
     let mut one = TileSet::default();
     one.insert(graphics::tile::Rect { x: 130, y: 100, width: 1, height: 1 });
     engine
-        .render(View::First, &flat_scene(0.9, NO_LAYER, Vec::new()), &one, &TileSet::default())
+        .render(
+            View::First,
+            &flat_scene(0.9, LayerOptics::EMPTY, Vec::new()),
+            &one,
+            &TileSet::default(),
+        )
         .unwrap();
     let after = engine.picture().unwrap();
     for y in 0..130 {

@@ -248,6 +248,7 @@ fn thin_films_of_every_pigment_keep_their_hue_on_a_screen() {
         let mut films = document(FILMS_MM.len(), pigments.len(), &[]);
         let slots: Slots = std::array::from_fn(|slot| pigments.get(slot).copied());
         films.slots = slots;
+        films.medium.films_break = false;
         for (slot, y) in (0..pigments.len()).enumerate() {
             for (x, mm) in FILMS_MM.into_iter().enumerate() {
                 let mut amounts = [0.0; SLOTS];
@@ -255,8 +256,13 @@ fn thin_films_of_every_pigment_keep_their_hue_on_a_screen() {
                 lay(&mut films.wet, (x, y), &amounts);
             }
         }
-        let picture = picture(&films, &scene(&films, &light));
-        for (index, &[r, g, b, _]) in picture.values().iter().enumerate() {
+        let even = picture(&films, &scene(&films, &light));
+        // Paint that breaks stays within the gamut.
+        films.medium.films_break = true;
+        let broken = picture(&films, &scene(&films, &light));
+        let is_inside = |&[r, g, b, _]: &[f32; 4]| Rgb([r, g, b].map(f64::from)).in_gamut();
+        assert!(broken.values().iter().all(is_inside));
+        for (index, &[r, g, b, _]) in even.values().iter().enumerate() {
             let exact = Rgb([r, g, b].map(f64::from));
             let shown = exact.mapped_into_gamut();
             if exact.in_gamut() {

@@ -249,8 +249,7 @@ fn a_row_may_be_cut_anywhere() {
             for (layer, coat) in
                 [(&document.dry[0].paint, &scene.dry[0]), (&document.wet, &scene.wet)]
             {
-                let cells = layer.pigments.row(y, first, count);
-                paint::composite::composite_row(coat, cells, &mut internal);
+                paint::composite::composite_layer_row(coat, layer, (first, y), &mut internal);
             }
             let materials: Vec<TopMaterial> = (first..first + count)
                 .map(|x| {

@@ -8,7 +8,7 @@ use graphics::field::Field;
 use graphics::tile::{Rect, TileSet};
 use image::ImageDecoder;
 use paint::brush::HeadShape;
-use paint::document::Lighting;
+use paint::document::{Document, Lighting, Medium};
 use paint::file;
 use paint::layer::LayerRef;
 use paint::painting::{MERGE_TOLERANCE, Painting, PaintingError};
@@ -285,7 +285,10 @@ fn a_saved_painting_comes_back_to_the_bit() {
 #[test]
 fn drying_leaves_the_colors_as_they_were() {
     for fraction in [1.0, 0.37] {
-        for mut painting in on_both(&bare(130, 100)) {
+        let mut document = bare(130, 100);
+        // Thin paint in two layers covers less of its cell than in one.
+        document.medium.films_break = fraction == 1.0;
+        for mut painting in on_both(&document) {
             crossing(&mut painting);
             let before = painting.flat_picture().unwrap();
             assert!(painting.dry(fraction).unwrap(), "there was paint");
@@ -308,7 +311,8 @@ fn two_layers(mut painting: Painting, slots: [usize; 2]) -> Painting {
 
 #[test]
 fn layers_of_like_paint_become_one_unseen() {
-    for painting in on_both(&bare(130, 100)) {
+    let even = Medium { films_break: false, ..Medium::default() };
+    for painting in on_both(&Document { medium: even, ..bare(130, 100) }) {
         let mut painting = two_layers(painting, [YELLOW, YELLOW]);
         let before = painting.picture().unwrap();
         let two = painting.document().unwrap();
@@ -322,6 +326,15 @@ fn layers_of_like_paint_become_one_unseen() {
             assert_eq!(one.dry[0].paint.totals()[slot], sum, "slot {slot}");
         }
         assert!(painting.undo().unwrap() && painting.document().unwrap() == two, "undo");
+    }
+}
+
+#[test]
+fn like_layers_merge_where_thin_paint_breaks() {
+    for painting in on_both(&bare(130, 100)) {
+        let mut painting = two_layers(painting, [YELLOW, YELLOW]);
+        painting.merge(LayerRef::Dry(0), LayerRef::Dry(1)).unwrap();
+        assert!(painting.medium().films_break, "only the test of the merge has even films");
     }
 }
 

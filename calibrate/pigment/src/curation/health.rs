@@ -9,6 +9,7 @@ use spectra::color::{Lab, delta_e_ciede2000};
 use crate::evaluate::{BandCoverage, COARSE_STEP_NM, Viewing, lab, percentile};
 use crate::library::{AmountKind, Pigment, PigmentLibrary};
 use crate::recipe::{PigmentId, Recipe};
+use crate::thin_films::{MOST_FILM, least_films};
 
 /// Severity of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -96,6 +97,7 @@ pub fn health(library: &PigmentLibrary, viewing: &Viewing) -> Health {
         of_pigment(library, pigment, &mut findings);
     }
     near_pairs(library, &weights, &mut findings);
+    of_thin_films(library, &mut findings);
     findings.sort_by_key(|finding| finding.severity);
     let pigments = library.ids().zip(&library.pigments).map(|(id, pigment)| PigmentHealth {
         name: pigment.name.clone(),
@@ -278,6 +280,22 @@ fn of_pigment(library: &PigmentLibrary, pigment: &Pigment, findings: &mut Vec<Fi
             }
             _ => {}
         }
+    }
+}
+
+/// Adds a finding that names the pigments of which thin films look wrong.
+fn of_thin_films(library: &PigmentLibrary, findings: &mut Vec<Finding>) {
+    let films = library.pigments.iter().zip(least_films(library));
+    let names: Vec<&str> = films
+        .filter(|(_, least)| *least >= MOST_FILM)
+        .map(|(pigment, _)| pigment.name.as_str())
+        .collect();
+    if !names.is_empty() {
+        let what = format!(
+            "S of thin films was not measured: by S of hiding films, thin ones of {} have far more chroma than their tints; drawdowns over black and white show it",
+            names.join(", ")
+        );
+        findings.push(Finding { severity: Severity::Warning, pigment: None, what });
     }
 }
 

@@ -243,7 +243,7 @@ const KNIFE: Proportions = Proportions {
     thickness: 0.03,
     spines: 3,
     splay: 0.0,
-    width: [0.7, 0.9, 1.0, 1.0, 1.0, 1.0],
+    width: [0.7, 0.9, 1.0, 1.0, 1.0, 0.91],
     depth: [1.0, 1.0, 1.0, 1.0, 1.0, 0.0],
     rigid: true,
     recess: 0.0,

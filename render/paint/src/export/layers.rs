@@ -21,7 +21,7 @@ use graphics::field::Field;
 use rayon::prelude::*;
 use spectra::color::{Rgb, RgbSpace};
 
-use crate::composite::composite_row;
+use crate::composite::composite_layer_row;
 use crate::document::{Document, Slots};
 use crate::layer::{Layer, layer_label};
 use crate::light::Light;
@@ -172,9 +172,7 @@ impl Hiding {
     fn measure(&mut self, scene: &Scene, optics: &LayerOptics, paint: &Layer, y: usize) {
         for backing in [1.0, 0.0] {
             self.internal.fill([backing; NODES]);
-            for film in paint.single_films() {
-                composite_row(optics, film.pigments.row(y, 0, film.width()), &mut self.internal);
-            }
+            composite_layer_row(optics, paint, (0, y), &mut self.internal);
             color_row(scene, &self.internal, &mut self.colors);
             let seen = self.colors.iter().map(|color| luminance(&self.weights, color));
             if backing == 1.0 {

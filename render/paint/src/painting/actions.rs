@@ -598,10 +598,12 @@ impl Painting {
     }
 
     /// Tries a merge on pictures without a trace in the history, with both layers shown, and
-    /// refuses it if it changes a colour.
+    /// refuses it if it changes a colour. Thin paint may cover a little more or less of its cell than in
+    /// two layers, so the pictures have even films.
     fn refuse_visible(&mut self, merge: &Merge) -> Result<(), PaintingError> {
         let Merge { lower, upper, place, state, paint } = merge;
         let dry = self.state.dry.clone();
+        let films_break = std::mem::replace(&mut self.state.medium.films_break, false);
         for index in [*lower, *upper] {
             self.state.dry[index].visible = true;
         }
@@ -619,6 +621,7 @@ impl Painting {
         self.engine.insert_dry_layer(*lower, &below)?;
         self.engine.insert_dry_layer(*upper, &over)?;
         self.state.dry = dry;
+        self.state.medium.films_break = films_break;
         self.views.mark_all();
         if delta_e > MERGE_TOLERANCE {
             return Err(PaintingError::MergeShows { delta_e, x, y });

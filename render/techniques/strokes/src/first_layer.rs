@@ -7,6 +7,7 @@ use paint::amount::quanta_from_mm;
 use paint::document::Document;
 use paint::layer::Layer;
 use paint::light::{Light, PaintLightError};
+use paint::optics::LEVELLING_MM;
 use paint::separation::{
     FilmMaterials, PaintFilm, Separation, SeparationError, SeparationSettings,
 };
@@ -54,8 +55,12 @@ pub fn first_layer(photograph: &Photograph, document: &Document) -> Result<Layer
     let seen = photograph.on_canvas(width, height);
     let heights = separation.separate(&black_compensated(&seen, separation.black()));
     let mut part = Layer::empty(width, height);
-    for (pigments, heights) in part.pigments.values_mut().iter_mut().zip(heights.values()) {
+    // So much vehicle levels the paint to even films.
+    let levelling = if medium.films_break { quanta_from_mm(LEVELLING_MM, *cell_mm) } else { 0 };
+    let cells = part.pigments.values_mut().iter_mut().zip(part.vehicle.values_mut());
+    for ((pigments, vehicle), heights) in cells.zip(heights.values()) {
         *pigments = heights.map(|mm| quanta_from_mm(f64::from(mm), *cell_mm));
+        *vehicle = if pigments.iter().any(|amount| *amount > 0) { levelling } else { 0 };
     }
     let mut paint = Layer::empty(columns, rows);
     paint.put((x, y), &part);

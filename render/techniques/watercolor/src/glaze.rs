@@ -133,7 +133,8 @@ const MATT: Gloss = Gloss { strength: 0.0, exponent: 10.0 };
 
 /// The binder of watercolor: the default medium without gloss.
 fn medium() -> Medium {
-    Medium { wet: MATT, dry: MATT, ..Medium::default() }
+    // A wash is even however thin it is.
+    Medium { films_break: false, wet: MATT, dry: MATT, ..Medium::default() }
 }
 
 /// The recipes of glazes for all colours, over one paper.

@@ -376,6 +376,10 @@ impl NewDialog {
             let drag = DragValue::new(&mut linen.threads_per_cm).range(2.0..=60.0).speed(0.1);
             let drag = ui.add(drag.max_decimals(1).suffix(tr(" threads/cm")));
             drag.accessible_name(tr("Threads")).on_hover_text(tr("8 is coarse, 14 usual, 25 fine"));
+            let drag = DragValue::new(&mut linen.unevenness).range(0.0..=1.0).speed(0.01);
+            let drag = ui.add(drag.max_decimals(2).prefix(tr("uneven ")));
+            let tip = tr("0 is a perfect weave, 0.5 is usual linen with thin and thick threads");
+            drag.accessible_name(tr("Unevenness of the threads")).on_hover_text(tip);
         }
         if let GroundRelief::Paper(paper) = &mut self.new.canvas.ground.relief {
             for (finish, name) in [

@@ -7,7 +7,7 @@
 use graphics::field::Field;
 use graphics::tile::{Rect, TILE, Tile, TileSet};
 
-use crate::layer::{Cell, Layer, SLOTS};
+use crate::layer::{Cell, FilmRow, Layer, SLOTS};
 
 /// A layer and the volume of each of its cells. 40 bytes a cell, 80 with a skin.
 #[derive(Debug, Clone)]
@@ -98,10 +98,10 @@ impl Columns {
     }
 
     /// The skin of `width` cells from column `x` of row `y`. `None` if they have none.
-    pub(super) fn skin_row(&self, y: usize, x: usize, width: usize) -> Option<&[[u32; SLOTS]]> {
+    pub(super) fn skin_row(&self, y: usize, x: usize, width: usize) -> Option<FilmRow<'_>> {
         let Skin { layer, volume } = self.skin.as_ref()?;
         let here = &volume[y * layer.width() + x..][..width];
-        has_paint(here).then(|| layer.pigments.row(y, x, width))
+        has_paint(here).then(|| layer.row(y, x, width))
     }
 
     /// The paint of both films of a cell.

@@ -11,7 +11,7 @@ use graphics::tile::{Rect, TILE, Tile, TileSet};
 use rayon::prelude::*;
 
 use super::columns::{Columns, SparseLayer};
-use crate::composite::composite_row;
+use crate::composite::{composite_layer_row, composite_row};
 use crate::optics::{NODES, Scene};
 use crate::shade::{TopMaterial, Tops, shade_row};
 
@@ -108,9 +108,10 @@ impl RenderedView {
         internal.clear();
         internal.resize(span.len(), scene.ground);
         self.baked.copy_row(y, span.start, internal);
-        composite_row(&scene.wet, wet.layer().pigments.row(y, span.start, span.len()), internal);
+        let body = wet.layer().row(y, span.start, span.len());
+        composite_row(&scene.wet, body, None, internal);
         if let Some(skin) = wet.skin_row(y, span.start, span.len()) {
-            composite_row(&scene.wet, skin, internal);
+            composite_row(&scene.wet, skin, Some(body), internal);
         }
         materials.clear();
         materials.extend(span.clone().map(|x| match wet.volume()[y * width + x] {
@@ -202,9 +203,7 @@ fn baked(scene: &Scene, dry: &[SparseLayer], tile: Tile, rect: Rect) -> Option<T
         let Some(part) = layer.tile(tile) else { continue };
         let backing = backing.get_or_insert_with(|| vec![scene.ground; rect.width * rect.height]);
         for (y, row) in backing.chunks_mut(rect.width).enumerate() {
-            for film in part.single_films() {
-                composite_row(optics, film.pigments.row(y, 0, rect.width), row);
-            }
+            composite_layer_row(optics, part, (0, y), row);
         }
     }
     backing

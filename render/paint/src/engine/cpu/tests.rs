@@ -461,6 +461,7 @@ fn layer_optics(strength: f32) -> LayerOptics {
             std::array::from_fn(|node| strength * ((slot * 3 + node * 5) % 7) as f32)
         }),
         scattering: [[strength * 2.0; NODES]; SLOTS],
+        covers: [5e-5; SLOTS + 1],
     }
 }
 

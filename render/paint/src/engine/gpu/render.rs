@@ -26,6 +26,8 @@ pub(super) const MAX_TILES: usize = 65535;
 struct LayerOptics {
     absorption: [[f32; NODES]; SLOTS],
     scattering: [[f32; NODES]; SLOTS],
+    /// Of the slots, then of vehicle. The rest is empty.
+    covers: [f32; 12],
 }
 
 /// Uniforms of [`PRIME`] and [`BAKE`].
@@ -82,7 +84,7 @@ struct ShowParams {
     skin: u32,
 }
 
-const LAYER_OPTICS: Layout = layout!(LayerOptics { absorption, scattering });
+const LAYER_OPTICS: Layout = layout!(LayerOptics { absorption, scattering, covers });
 
 const BAKE_SOURCE: &str = concat!(
     include_str!("../../amount.wgsl"),
@@ -185,7 +187,9 @@ pub(super) struct ViewBuffers {
 
 impl From<&crate::optics::LayerOptics> for LayerOptics {
     fn from(layer: &crate::optics::LayerOptics) -> Self {
-        Self { absorption: layer.absorption, scattering: layer.scattering }
+        let mut covers = [0.0; 12];
+        covers[..layer.covers.len()].copy_from_slice(&layer.covers);
+        Self { absorption: layer.absorption, scattering: layer.scattering, covers }
     }
 }
 
@@ -261,10 +265,8 @@ impl ViewBuffers {
         scene: &Scene,
         tiles: &[[u32; 2]],
     ) {
-        let empty =
-            LayerOptics { absorption: [[0.0; NODES]; SLOTS], scattering: [[0.0; NODES]; SLOTS] };
         let params = BakeParams {
-            layer: empty,
+            layer: (&crate::optics::LayerOptics::EMPTY).into(),
             ground: scene.ground,
             canvas: canvas.size,
             first_tile: recording.batch(tiles),

@@ -42,7 +42,8 @@ impl FilmMaterial {
     ) -> Result<Self, FilmPaintError> {
         let light = Light::named(&library, &lighting.illuminant, &lighting.observer)?;
         let reflectance = ground.reflectance(&library)?;
-        let medium = Medium::of(&library);
+        // The painter chooses films, also thin ones, that are even.
+        let medium = Medium { films_break: false, ..Medium::of(&library) };
         Ok(Self { library, ground, lighting, medium, reflectance, light })
     }
 

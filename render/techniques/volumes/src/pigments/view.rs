@@ -4,7 +4,7 @@ use graphics::field::Field;
 use paint::composite::composite_row;
 use paint::document::{Lighting, Slots};
 use paint::ground::Ground;
-use paint::layer::SLOTS;
+use paint::layer::{FilmRow, SLOTS};
 use paint::light::Light;
 use paint::optics::{Gloss, NODES, Scene};
 use paint::scene::{Appearance, picture, scene};
@@ -65,7 +65,7 @@ impl FilmView {
         let scene = appearance.scene(&light);
         let mut greys = vec![scene.ground; painter.greys().len()];
         if coats.first() == Some(&Coat::Grisaille) {
-            composite_row(&scene.dry[0], painter.greys(), &mut greys);
+            composite_row(&scene.dry[0], even(painter.greys()), None, &mut greys);
         }
         Ok(Self { light, lighting: lighting.clone(), coats, scene, greys })
     }
@@ -134,10 +134,15 @@ impl FilmView {
                 cells.filter(|(_, level)| level.is_some()).for_each(|(cell, _)| *cell = [0; SLOTS]);
             }
             for (amounts, internal) in amounts.chunks(RUN).zip(internal.chunks_mut(RUN)) {
-                composite_row(optics, amounts, internal);
+                composite_row(optics, even(amounts), None, internal);
             }
         }
     }
+}
+
+/// A row of films without vehicle.
+fn even(pigments: &[[u32; SLOTS]]) -> FilmRow<'_> {
+    FilmRow { pigments, vehicle: &[] }
 }
 
 #[cfg(test)]

@@ -46,7 +46,12 @@ fn baked_cell(at: vec2<u32>) -> BakedCell {
     let paint = Cell(pigments[2u * k], pigments[2u * k + 1u], vehicle[k]);
     let backing = Nodes(baked[2u * i], baked[2u * i + 1u]);
     let painted = all(at < params.canvas) && volume(paint) > 0u;
-    return BakedCell(i, painted, composite(paint.low, paint.high, backing));
+    var covered = covered_part(paint);
+    if params.first_cell > 0u {
+        // The body lies below this skin.
+        covered += covered_part(Cell(pigments[2u * i], pigments[2u * i + 1u], vehicle[i]));
+    }
+    return BakedCell(i, painted, composite(paint, covered, backing));
 }
 
 fn write(cell: BakedCell) {

@@ -44,12 +44,13 @@ fn level_cell(at: vec2<u32>) -> LevelCell {
     let inside = min(at, params.canvas - vec2(1u));
     let i = inside.y * params.canvas.x + inside.x;
     let wet = Cell(pigments[2u * i], pigments[2u * i + 1u], vehicle[i]);
-    var internal = composite(wet.low, wet.high, Nodes(baked[2u * i], baked[2u * i + 1u]));
+    let covered = covered_part(wet);
+    var internal = composite(wet, covered, Nodes(baked[2u * i], baked[2u * i + 1u]));
     var is_wet = volume(wet) > 0u;
     if params.skin != 0u {
         let k = i + params.canvas.x * params.canvas.y;
         let above = Cell(pigments[2u * k], pigments[2u * k + 1u], vehicle[k]);
-        internal = composite(above.low, above.high, internal);
+        internal = composite(above, covered + covered_part(above), internal);
         is_wet = is_wet || volume(above) > 0u;
     }
     return LevelCell(at, i, select(material[i], 0u, is_wet), color(internal));
