@@ -109,35 +109,31 @@ mod tests {
     fn strong_blues_need_thicker_films_than_whites_and_earths() {
         let oils = PigmentLibrary::van_gogh_oils();
         let least = least_films(&oils);
-        let of = |name: &str| least[oils.find(name).unwrap().index()];
-        assert_eq!([of("Ultramarine"), of("Lead White")], [MOST_FILM, LEAST_FILM]);
-        assert!((1.0..4.0).contains(&of("Vermilion")), "{}", of("Vermilion"));
-        assert!(of("Bone Black") < 1.0, "{}", of("Bone Black"));
+        let [blue, white, red, black] = ["Ultramarine", "Lead White", "Vermilion", "Bone Black"]
+            .map(|name| least[oils.find(name).unwrap().index()]);
+        assert_eq!([blue, white], [MOST_FILM, LEAST_FILM]);
+        assert!((1.0..4.0).contains(&red), "{red}");
+        assert!(black < 1.0, "{black}");
     }
 
     #[test]
     fn a_film_from_the_least_one_on_has_the_chroma_of_tints_and_thinner_ones_have_more() {
         let oils = PigmentLibrary::van_gogh_oils();
-        let weights = Viewing::default().weights(oils.grid).unwrap();
-        let white = oils.reference_id().unwrap();
+        let films = Films::of(&oils).unwrap();
         let vermilion = oils.find("Vermilion").unwrap();
         let least = least_films(&oils)[vermilion.index()];
-        let surface = oils.film().surface;
-        let tint = |share: f64| {
-            let parts = [(vermilion, share), (white, 1.0 - share)];
-            lab(&weights, &oils.mix(parts).unwrap().hiding(surface))
-        };
-        let bare = oils.mix([(white, 1.0)]).unwrap().hiding(surface);
+        let bare = films.tint(vermilion, 0.0);
         let paint = oils.mix([(vermilion, 1.0)]).unwrap();
         let beyond = |thickness: f64| {
-            let film = lab(&weights, &paint.film(thickness, &bare, oils.film()));
-            let tints = (0..=4000).map(|step| tint(0.9985f64.powi(step)));
+            let film = paint.film(thickness, &bare, oils.film());
+            let [lightness, chroma] = films.lightness_and_chroma(&film);
+            let tints = (0..=4000).map(|step| films.tint(vermilion, 0.9985f64.powi(step)));
+            let tints = tints.map(|tint| films.lightness_and_chroma(&tint));
             let near = tints.min_by(|a, b| {
-                let [a, b] = [a, b].map(|tint| (tint.lightness - film.lightness).abs());
+                let [a, b] = [a, b].map(|tint| (tint[0] - lightness).abs());
                 a.total_cmp(&b)
             });
-            let near = near.unwrap();
-            film.a.hypot(film.b) - near.a.hypot(near.b)
+            chroma - near.unwrap()[1]
         };
         for factor in [1.0, 1.5, 3.0] {
             assert!(beyond(factor * least) < 5.0, "{factor}: {}", beyond(factor * least));

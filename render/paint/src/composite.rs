@@ -308,9 +308,10 @@ mod tests {
         for factor in [0.98, 0.5, 0.02] {
             let covered = f64::from(factor * 1.01);
             let height = 1000.0 / covered;
-            let sum = |table: &[[f32; NODES]; SLOTS]| height * f64::from(table[0][0] + table[1][0]);
-            let optics = layer(9.0, 5.0);
-            let film = Layer::new(sum(&optics.absorption), sum(&optics.scattering), 1.0);
+            let LayerOptics { absorption, scattering, .. } = layer(9.0, 5.0);
+            let [k, s] =
+                [absorption, scattering].map(|table| height * f64::from(table[0][0] + table[1][0]));
+            let film = Layer::new(k, s, 1.0);
             let found = thin(whole.map(|share| factor * share));
             for (found, backing) in found.into_iter().zip(BACKINGS) {
                 let bare = f64::from(backing);
@@ -325,17 +326,17 @@ mod tests {
     fn the_body_below_a_skin_counts_for_what_the_skin_covers() {
         let layer = LayerOptics { covers: [4e-4; SLOTS + 1], ..layer(9.0, 5.0) };
         let [thin, thick] = [500, 900].map(|parts| [[parts, parts, 0, 0, 0, 0, 0, 0]]);
-        let over = |body: Option<&[[u32; SLOTS]]>| {
+        let [bare, less, more] = [None, Some(&thin), Some(&thick)].map(|body| {
             let mut row = [BACKINGS];
             let body = body.map(|pigments| FilmRow { pigments, vehicle: &[] });
             composite_row(&layer, FilmRow { pigments: &thin, vehicle: &[] }, body, &mut row);
             row[0]
-        };
+        });
         let whole = LayerOptics { covers: [1.0; SLOTS + 1], ..layer };
         let mut even = [BACKINGS];
         even_films(&whole, &thin, &mut even);
-        assert_eq!(over(Some(&thick)), even[0], "0.4 and 0.72 cover all");
-        assert_ne!(over(None), even[0], "0.4 covers a part");
-        assert_ne!(over(Some(&thin)), even[0], "twice 0.4 covers a part");
+        assert_eq!(more, even[0], "0.4 and 0.72 cover all");
+        assert_ne!(bare, even[0], "0.4 covers a part");
+        assert_ne!(less, even[0], "twice 0.4 covers a part");
     }
 }
