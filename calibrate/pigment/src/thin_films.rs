@@ -10,14 +10,14 @@ use crate::evaluate::{Viewing, lab};
 use crate::library::{AmountKind, PigmentLibrary};
 use crate::recipe::PigmentId;
 
-/// Greatest least film, as S d of the reference white: 0.012 mm of paint from the tube, whose white hides from
-/// 0.05 mm on. We chose it by eye: with 12, thin strokes of blue no longer look like paint.
+/// Maximum of [`least_films`], as S d of the reference white. It is 0.012 mm in paint from the tube, of which the white
+/// hides from 0.05 mm on. We chose it by eye: with 12, thin strokes of blue no longer look like paint.
 pub const MOST_FILM: f64 = 5.0;
 /// Thinnest film that we try.
 const LEAST_FILM: f64 = 0.05;
-/// We try this many thicknesses between them, each the same factor from the next.
+/// We try this many thicknesses below [`MOST_FILM`], each smaller than the one before by the same factor.
 const STEPS: i32 = 48;
-/// Parts of the ground beside the least film that we look at.
+/// We also check films that cover these parts of a white ground.
 const SHARES: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
 /// We compare with this many tints, from 1 part of paint in 1000 to paint alone.
 const TINTS: i32 = 60;
@@ -26,13 +26,13 @@ const MORE_CHROMA: f64 = 3.0;
 /// Tints within this lightness of a film count.
 const SAME_LIGHTNESS: f64 = 2.0;
 
-/// Least thickness of a film of each pigment in the library's unit, in its order, 0 to [`MOST_FILM`]. From this
-/// thickness on, films over the reference white have no more chroma than tints of the same lightness under D65.
-/// The same holds for a white of which this film covers a part.
+/// Thickness of each pigment, in the library's unit and order, from which on its films over the reference white have no
+/// more chroma under D65 than its tints of the same lightness, 0 to [`MOST_FILM`]. If such a film covers a part of the
+/// white, what you see of both together has no more chroma either.
 ///
-/// You get [`MOST_FILM`] for a pigment whose films still have more chroma at this thickness: lakes and strong blues. You get 0 for
-/// all pigments of absolute amounts, since their thin films were measured, and of a library without a reference
-/// white.
+/// Lakes and strong blues have more chroma in any film that does not hide. They get [`MOST_FILM`]. All pigments of a
+/// library of absolute amounts get 0, since its thin films were measured, and so do those of a library without a
+/// reference white.
 #[must_use]
 pub fn least_films(library: &PigmentLibrary) -> Vec<f64> {
     match Films::of(library) {

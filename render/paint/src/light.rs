@@ -90,7 +90,7 @@ pub struct Light {
     /// Linear sRGB of reflectance 1 at each wavelength, adapted from the light's white to D65
     /// by Bradford's transform. They sum to (1, 1, 1) up to rounding.
     pub rgb_from_nodes: [[f32; 3]; NODES],
-    /// Least thickness of a film of each pigment, see [`least_films`]. The light does not matter.
+    /// Thickness at which a film of each pigment covers its cell, see [`least_films`]. It is the same under every light.
     pub least_films: Vec<f64>,
 }
 

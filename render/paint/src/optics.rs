@@ -33,13 +33,13 @@ impl LayerOptics {
     };
 }
 
-/// Height in mm from which on vehicle levels paint to a film, however little pigment is in it. We chose it by eye.
+/// A cell with this height of vehicle in mm has an even film, however little pigment is in it. We chose it by eye.
 pub const LEVELLING_MM: f64 = 0.01;
 
-/// Shares of a cell that a quantum of each slot's paint covers, then one of vehicle, 0 to 1. `least_films` holds the
-/// least thickness of a film of each pigment ([`pigment::thin_films::least_films`]), `thickness_per_quantum` comes
-/// from [`thickness_per_quantum`], and `cell_mm` is the width of a cell. 1 for films that are even however
-/// thin they are.
+/// Share of its cell, 0 to 1, that a quantum covers: for the paint of each slot, and last for vehicle. Where the
+/// shares of a cell sum to 1 or more, the film covers all of it. `least_films` holds the thickness at which the film of
+/// each pigment does so ([`pigment::thin_films::least_films`]), 0 for films that are even however thin they are.
+/// `thickness_per_quantum` comes from [`thickness_per_quantum`], and `cell_mm` is the width of a cell.
 #[must_use]
 pub fn covers(
     slots: &Slots,

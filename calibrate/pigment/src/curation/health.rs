@@ -283,7 +283,7 @@ fn of_pigment(library: &PigmentLibrary, pigment: &Pigment, findings: &mut Vec<Fi
     }
 }
 
-/// Adds a finding that names the pigments of which thin films look wrong.
+/// Adds a finding if the library does not know how thin films of some pigments look.
 fn of_thin_films(library: &PigmentLibrary, findings: &mut Vec<Finding>) {
     let films = library.pigments.iter().zip(least_films(library));
     let names: Vec<&str> = films
@@ -292,7 +292,7 @@ fn of_thin_films(library: &PigmentLibrary, findings: &mut Vec<Finding>) {
         .collect();
     if !names.is_empty() {
         let what = format!(
-            "S of thin films was not measured: by S of hiding films, thin ones of {} have far more chroma than their tints; drawdowns over black and white show it",
+            "S was fitted to films that hide, and by it thin films of {} have more chroma than their tints: measure drawdowns over black and white to know",
             names.join(", ")
         );
         findings.push(Finding { severity: Severity::Warning, pigment: None, what });
@@ -508,6 +508,20 @@ impl<'a> Side<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn pigments_with_unknown_thin_films_are_named() {
+        let mut oils = PigmentLibrary::van_gogh_oils();
+        let [relative, absolute] = [AmountKind::Relative, AmountKind::Absolute].map(|amounts| {
+            oils.amounts = amounts;
+            let findings = health(&oils, &Viewing::default()).findings;
+            findings.into_iter().find(|finding| finding.what.contains("thin films of"))
+        });
+        let found = relative.expect("a finding");
+        assert_eq!(found.severity, Severity::Warning);
+        assert!(found.what.contains("Ultramarine") && !found.what.contains("Lead White"));
+        assert_eq!(absolute, None, "thin films of absolute amounts were measured");
+    }
 
     fn faults(library: &PigmentLibrary) -> Vec<String> {
         let found = health(library, &Viewing::default()).findings;

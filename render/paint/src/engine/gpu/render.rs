@@ -26,7 +26,7 @@ pub(super) const MAX_TILES: usize = 65535;
 struct LayerOptics {
     absorption: [[f32; NODES]; SLOTS],
     scattering: [[f32; NODES]; SLOTS],
-    /// Of the slots, then of vehicle. The rest is empty.
+    /// Eight slots, then vehicle, then zeros that fill the last vector of four.
     covers: [f32; 12],
 }
 
